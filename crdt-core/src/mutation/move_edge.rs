@@ -1,0 +1,36 @@
+//! Mutation 5. `[spec: MUT-5.1]` and following.
+
+use super::{AttributeMap, Author, Draft, MoveEdgeError, attributes, new_edge, strand};
+use crate::record::EdgeKey;
+use crate::state::Delta;
+use crate::view::{View, view};
+
+/// Moves the edge shown under one key to another, in one delta: re-parenting, changing rooms, the next
+/// step of an action. `[spec: MUT-5]`
+///
+/// The edge under the new key is a new instance and has exactly the given attributes.
+pub fn move_edge(
+    view_before: &View<'_>,
+    author: Author,
+    from: &EdgeKey,
+    to: &EdgeKey,
+    attributes: &AttributeMap,
+) -> Result<Delta, MoveEdgeError> {
+    if view_before.edge_by_key(from).is_none() {
+        return Err(MoveEdgeError::UnknownEdge { key: from.clone() });
+    }
+    if from == to {
+        return Err(MoveEdgeError::SameKey { key: from.clone() });
+    }
+    attributes::check(view_before.dictionary(), attributes.iter())?;
+    let mut draft = Draft::new(view_before.state(), author)?;
+    draft.kill_register(view_before, from);
+
+    // The new edge must be possible where the old one is gone.
+    let removed = view_before.state().joined(&draft.delta);
+    new_edge::check(&view(&removed, view_before.dictionary()), to)?;
+    draft.kill_register(view_before, to);
+    draft.edge(to, attributes)?;
+    strand::check(view_before, &draft.delta)?;
+    Ok(draft.delta)
+}

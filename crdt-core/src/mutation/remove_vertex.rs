@@ -1,0 +1,20 @@
+//! Mutation 6. `[spec: MUT-6.1]` and following.
+
+use super::{RemoveVertexError, strand};
+use crate::dot::VertexId;
+use crate::state::Delta;
+use crate::view::View;
+
+/// Removes a vertex. The delta is one dead dot: closure takes the edges and the attributes. `[spec: MUT-6]`
+pub fn remove_vertex(view: &View<'_>, vertex: VertexId) -> Result<Delta, RemoveVertexError> {
+    if vertex.is_root() {
+        return Err(RemoveVertexError::Root);
+    }
+    if !view.has_vertex(vertex) {
+        return Err(RemoveVertexError::UnknownVertex { vertex });
+    }
+    let mut delta = Delta::new();
+    delta.kill(vertex.0);
+    strand::check(view, &delta)?;
+    Ok(delta)
+}

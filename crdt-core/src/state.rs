@@ -1,0 +1,217 @@
+//! The state: a causal set of dotted records, its join and its closure.
+//!
+//! Each dot is *unseen*, *held* (with its record) or *dead* (seen, not held), and only ever moves in that
+//! direction. [`State::merge`] takes the pointwise maximum; [`State::close`] lets what is anchored to the
+//! dead die with it; [`State::join`] is one after the other and the join of a semilattice.
+
+use crate::context::CausalContext;
+use crate::dot::{Dot, ReplicaId};
+use crate::record::{Edge, Rank, Record, Vertex, Write};
+use alloc::collections::BTreeMap;
+use alloc::collections::btree_map::Entry;
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+
+/// A replica's state, and as well what is broadcast: a delta is a small state. `[spec: STATE-1]`
+///
+/// Invariants, enforced by every constructor and decoder (`[spec: WF-1]` and following): every held dot
+/// has been seen; the state is closed. Records are shared, so cloning a state copies no payload.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+pub struct State {
+    store: BTreeMap<Dot, Arc<Record>>,
+    context: CausalContext,
+}
+
+/// What a mutation returns and a network carries. `[spec: STATE-5]`
+pub type Delta = State;
+
+impl State {
+    /// The state that has seen nothing: only the root lives.
+    pub const fn new() -> Self {
+        Self { store: BTreeMap::new(), context: CausalContext::new() }
+    }
+
+    /// Assembles a state from its parts, without judging them: see [`crate::check_well_formed`].
+    pub(crate) fn from_parts(store: BTreeMap<Dot, Arc<Record>>, context: CausalContext) -> Self {
+        Self { store, context }
+    }
+
+    /// Files a record under a dot that nobody has used yet.
+    pub(crate) fn insert(&mut self, dot: Dot, record: Record) {
+        self.context.insert(dot);
+        self.store.insert(dot, Arc::new(record));
+    }
+
+    /// Marks a dot as seen and not held.
+    pub(crate) fn kill(&mut self, dot: Dot) {
+        self.context.insert(dot);
+        self.store.remove(&dot);
+    }
+
+    /// Marks dots as seen, whether held or not.
+    pub(crate) fn observe(&mut self, dots: &CausalContext) {
+        self.context.join(dots);
+    }
+
+    /// Every dot that has been seen.
+    pub fn context(&self) -> &CausalContext {
+        &self.context
+    }
+
+    /// The records held, in the order of their dots.
+    pub fn records(&self) -> impl ExactSizeIterator<Item = (Dot, &Record)> + Clone + '_ {
+        self.store.iter().map(|(&dot, record)| (dot, &**record))
+    }
+
+    /// How many records are held, pending ones included.
+    pub fn len(&self) -> usize {
+        self.store.len()
+    }
+
+    /// Whether no record is held.
+    pub fn is_empty(&self) -> bool {
+        self.store.is_empty()
+    }
+
+    /// The record held under `dot`.
+    pub fn get(&self, dot: Dot) -> Option<&Record> {
+        self.store.get(&dot).map(|record| &**record)
+    }
+
+    /// The vertex held under `dot`; the root has no record.
+    pub fn vertex(&self, dot: Dot) -> Option<&Vertex> {
+        if let Some(Record::Vertex(vertex)) = self.get(dot) { Some(vertex) } else { None }
+    }
+
+    /// The edge held under `dot`.
+    pub fn edge(&self, dot: Dot) -> Option<&Edge> {
+        if let Some(Record::Edge(edge)) = self.get(dot) { Some(edge) } else { None }
+    }
+
+    /// The write held under `dot`.
+    pub fn write(&self, dot: Dot) -> Option<&Write> {
+        if let Some(Record::Write(write)) = self.get(dot) { Some(write) } else { None }
+    }
+
+    /// Whether a record is held under `dot`.
+    pub fn holds(&self, dot: Dot) -> bool {
+        self.store.contains_key(&dot)
+    }
+
+    /// Seen but not held: removed or superseded, for ever. The root never is. `[spec: STATE-3]`
+    pub fn is_dead(&self, dot: Dot) -> bool {
+        self.context.contains(dot) && !self.holds(dot)
+    }
+
+    /// The rank of the claim held under `dot`: the greater of two competing claims wins. `[spec: STAMP-2]`
+    pub fn rank(&self, dot: Dot) -> Option<Rank> {
+        self.get(dot).map(|record| (record.stamp(), dot))
+    }
+
+    /// The greatest stamp held, 0 when no record is. `[spec: STAMP-1]`
+    pub fn greatest_stamp(&self) -> u64 {
+        self.store.values().map(|record| record.stamp()).max().unwrap_or(0)
+    }
+
+    /// The dot of `replica`'s next event, or `None` when its sequences are used up. `[spec: ID-3]`
+    pub fn next_dot(&self, replica: ReplicaId) -> Option<Dot> {
+        Some(Dot::new(replica, self.context.greatest(replica).checked_add(1)?))
+    }
+
+    /// Joins `other` into this state: [`merge`](Self::merge), then [`close`](Self::close). `[spec: JOIN-3]`
+    ///
+    /// Associative, commutative and idempotent on well-formed states in which no dot was used twice.
+    /// Not promised: telling a reused dot; see [`reused_dot`](Self::reused_dot).
+    pub fn join(&mut self, other: &Self) {
+        if self.merge(other) {
+            self.close();
+        }
+    }
+
+    /// [`join`](Self::join), leaving this state as it is.
+    #[must_use]
+    pub fn joined(&self, other: &Self) -> Self {
+        let mut state = self.clone();
+        state.join(other);
+        state
+    }
+
+    /// The pointwise maximum of unseen < held < dead, per dot; contexts unite. `[spec: JOIN-1]`
+    ///
+    /// If a dot was used twice, the greater record is kept, so that the outcome does not depend on who
+    /// merges into whom (`[spec: JOIN-2]`). Returns whether the result may need [`close`](Self::close).
+    pub fn merge(&mut self, other: &Self) -> bool {
+        let mut disturbed = self.drop_dead_in(other);
+        for (&dot, theirs) in &other.store {
+            match self.store.entry(dot) {
+                Entry::Occupied(mut ours) => {
+                    if ours.get() < theirs {
+                        ours.insert(theirs.clone());
+                        disturbed = true;
+                    }
+                }
+                Entry::Vacant(gap) => {
+                    if !self.context.contains(dot) {
+                        gap.insert(theirs.clone());
+                        let context = &self.context;
+                        disturbed |= theirs.anchors().any(|anchor| context.contains(anchor));
+                    }
+                }
+            }
+        }
+        disturbed |= other.context.runs().any(|run| {
+            // A dot that arrives dead can be the anchor of a record that waits here.
+            run.dots().any(|dot| !self.context.contains(dot) && !other.holds(dot))
+        });
+        self.context.join(&other.context);
+        disturbed
+    }
+
+    /// Drops the records held here that `other` has seen and does not hold; whether there were any.
+    /// Visits only dots that `other` has seen.
+    fn drop_dead_in(&mut self, other: &Self) -> bool {
+        let mut dead = Vec::new();
+        for (replica, last) in other.context.vector() {
+            let seen = self.store.range(Dot::new(replica, 1)..=Dot::new(replica, last));
+            dead.extend(seen.map(|(&dot, _)| dot).filter(|&dot| !other.holds(dot)));
+        }
+        dead.extend(other.context.cloud().filter(|&dot| self.holds(dot) && !other.holds(dot)));
+        for dot in &dead {
+            self.store.remove(dot);
+        }
+        !dead.is_empty()
+    }
+
+    /// Drops every record anchored to a dead dot, until none is left. `[spec: CLOSE-1]`
+    ///
+    /// Reaches its fixed point in two passes: a vertex takes its edges, an edge its writes
+    /// (`[spec: CLOSE-3]`). What is anchored to a dot not yet *seen* stays, pending (`[spec: CLOSE-4]`).
+    pub fn close(&mut self) {
+        loop {
+            let stranded: Vec<Dot> = self
+                .store
+                .iter()
+                .filter(|(_, record)| record.anchors().any(|anchor| self.is_dead(anchor)))
+                .map(|(&dot, _)| dot)
+                .collect();
+            if stranded.is_empty() {
+                return;
+            }
+            for dot in stranded {
+                self.store.remove(&dot);
+            }
+        }
+    }
+
+    /// Whether joining this into `other` would change nothing: the order of the semilattice. `[spec: JOIN-4]`
+    pub fn is_below(&self, other: &Self) -> bool {
+        other.joined(self) == *other
+    }
+
+    /// A dot that this state and `other` hold with different records: a replica used it twice, against
+    /// `[spec: ID-3]`. What arrives from outside can be tested before it is joined.
+    pub fn reused_dot(&self, other: &Self) -> Option<Dot> {
+        let (small, large) = if self.len() <= other.len() { (self, other) } else { (other, self) };
+        small.store.iter().find(|(dot, record)| large.store.get(dot).is_some_and(|r| r != *record)).map(|(&dot, _)| dot)
+    }
+}

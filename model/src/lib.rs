@@ -1,0 +1,1 @@
+//! Exhaustive checking of concurrent replicas.
