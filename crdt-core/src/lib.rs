@@ -38,6 +38,8 @@ mod dictionary;
 mod digest;
 mod dot;
 pub mod invariant;
+#[cfg(feature = "serde")]
+pub mod json;
 pub mod limits;
 mod mutation;
 mod record;

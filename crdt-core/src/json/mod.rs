@@ -1,0 +1,24 @@
+//! JSON forms, by serde. `[spec: JSON-1]`
+//!
+//! For files, tests and people; between replicas travels the binary encoding. Equal values give equal
+//! text, and what is read back equals what was written. An object that names a key twice or a field
+//! that is not known is refused, and so is a state that is not well-formed. `[spec: JSON-2]`
+//!
+//! | type | form | room |
+//! |---|---|---|
+//! | replica, dot, vertex, edge | `"r3"`, `"r3.17"`, `"root"` | [`ids`] |
+//! | value | `{"type": "int", "value": 5}` | [`value`] |
+//! | dictionary | `{"closed": true, "edge_labels": ["in"], …}` | [`dictionary`] |
+//!
+//! ```
+//! # use dsr_core::Value;
+//! let value: Value = serde_json::from_str(r#"{"type": "uint64", "value": "18446744073709551615"}"#)?;
+//! assert_eq!(value, Value::UInt64(u64::MAX));
+//! # Ok::<(), serde_json::Error>(())
+//! ```
+
+mod dictionary;
+mod ids;
+mod map;
+mod number;
+mod value;
