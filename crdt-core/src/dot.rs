@@ -80,7 +80,7 @@ fn decimal<T: FromStr>(text: &str) -> Result<T, ParseDotError> {
     if !canonical {
         return Err(ParseDotError);
     }
-    text.parse().map_err(|_: T::Err| ParseDotError)
+    text.parse().or(Err(ParseDotError))
 }
 
 impl FromStr for ReplicaId {
@@ -191,7 +191,19 @@ mod tests {
 
     #[test]
     fn law_a_dot_has_one_spelling() {
-        for text in ["", "r", "r1", "r1.", "r01.2", "r1.+2", "r1+0.2", "r1.02", "1.2", "r1.2.3", "r1.18446744073709551616"] {
+        for text in [
+            "",
+            "r",
+            "r1",
+            "r1.",
+            "r01.2",
+            "r1.+2",
+            "r1+0.2",
+            "r1.02",
+            "1.2",
+            "r1.2.3",
+            "r1.18446744073709551616",
+        ] {
             assert_eq!(text.parse::<Dot>(), Err(ParseDotError), "{text}");
         }
         assert_eq!("r0.0".parse::<VertexId>(), Err(ParseDotError));

@@ -6,9 +6,11 @@
 //!
 //! | type | form | room |
 //! |---|---|---|
-//! | replica, dot, vertex, edge | `"r3"`, `"r3.17"`, `"root"` | [`ids`] |
-//! | value | `{"type": "int", "value": 5}` | [`value`] |
-//! | dictionary | `{"closed": true, "edge_labels": ["in"], …}` | [`dictionary`] |
+//! | replica, dot, vertex, edge | `"r3"`, `"r3.17"`, `"root"` | `ids` |
+//! | value | `{"type": "int", "value": 5}` | `value` |
+//! | dictionary | `{"closed": true, "edge_labels": ["in"], …}` | `dictionary` |
+//! | edge key, author | `{"from": "r1.1", "label": "in", "to": "r1.3"}`, `{"replica": "r1"}` | `edge_key`, `author` |
+//! | mutation | `{"remove_vertex": {"vertex": "r1.1"}}` | `mutation` |
 //!
 //! ```
 //! # use dsr_core::Value;
@@ -17,8 +19,11 @@
 //! # Ok::<(), serde_json::Error>(())
 //! ```
 
+mod author;
 mod dictionary;
+mod edge_key;
 mod ids;
 mod map;
+mod mutation;
 mod number;
 mod value;

@@ -107,8 +107,8 @@ fn names_of<'s>(
     vertices: &[VertexId],
     repairs: &mut Vec<Repair>,
 ) -> Vec<(&'s Name, u64, VertexId)> {
-    let named = vertices.iter().filter_map(|&id| state.vertex(id.0).map(|v| (&v.name, v.stamp, id)));
-    let mut names: Vec<_> = named.collect();
+    let mut names: Vec<_> =
+        vertices.iter().filter_map(|&id| state.vertex(id.0).map(|v| (&v.name, v.stamp, id))).collect();
     names.sort_unstable();
     for clash in names.chunk_by(|l, r| l.0 == r.0) {
         if let [(name, _, shown), rest @ ..] = clash {
