@@ -31,9 +31,10 @@ impl State {
         Self { store: BTreeMap::new(), context: CausalContext::new() }
     }
 
-    /// Assembles a state from its parts, without judging them: see [`crate::check_well_formed`].
-    pub(crate) fn from_parts(store: BTreeMap<Dot, Arc<Record>>, context: CausalContext) -> Self {
-        Self { store, context }
+    /// Assembles a state from its parts without judging them: whoever takes them from outside calls
+    /// [`check_well_formed`](crate::check_well_formed) before anything else.
+    pub fn assemble(records: impl IntoIterator<Item = (Dot, Record)>, context: CausalContext) -> Self {
+        Self { store: records.into_iter().map(|(dot, record)| (dot, Arc::new(record))).collect(), context }
     }
 
     /// Files a record under a dot that nobody has used yet.

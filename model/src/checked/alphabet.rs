@@ -1,0 +1,135 @@
+//! Alphabets: which concrete mutations replicas may do in a view.
+
+use super::renaming::fresh_name;
+use super::replica_id;
+use dsr_core::{
+    AttributeMap, EdgeKey, ElementId, Mutation, MutationKind, NewVertex, Placement, RT, Value, VertexId, VertexLink, View,
+};
+use std::collections::BTreeSet;
+
+/// The name that several new vertices share, so that names clash.
+const SHARED_NAME: &str = "twin";
+/// The type of new vertices.
+const NEW_TYPE: &str = "object";
+/// The functional label that edges are added under.
+pub const FUNCTIONAL: &str = "in";
+/// The plain label that edges are added under.
+pub const PLAIN: &str = "has";
+/// The attribute that is updated.
+pub const ATTRIBUTE: &str = "level";
+
+/// The mutations of the chosen kinds on the vertices in focus, on the edges between them, and on whatever
+/// replicas add.
+///
+/// Values are not varied: the semantics never looks into them (it compares the writes' ranks), so one
+/// value stands for all. New vertices take a name of their own, or a shared one that can clash.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Alphabet {
+    /// Which kinds.
+    pub kinds: BTreeSet<MutationKind>,
+    /// The vertices besides the root that replicas touch; what replicas add is always in focus.
+    pub focus: Vec<VertexId>,
+}
+
+impl Alphabet {
+    /// All six kinds on a focus.
+    pub fn all(focus: Vec<VertexId>) -> Self {
+        Self { kinds: MutationKind::ALL.into(), focus }
+    }
+
+    /// Some kinds on a focus.
+    pub fn of(kinds: &[MutationKind], focus: Vec<VertexId>) -> Self {
+        Self { kinds: kinds.iter().copied().collect(), focus }
+    }
+
+    /// The mutations that replica `replica` may try, whether or not the core accepts them.
+    pub(super) fn enabled(&self, view: &View<'_>, replica: usize) -> Vec<Mutation> {
+        let focus: Vec<VertexId> = view.vertices().iter().copied().filter(|&id| self.in_focus(id)).collect();
+        let mut mutations = Vec::new();
+        for kind in &self.kinds {
+            match kind {
+                MutationKind::AddVertex => add_vertex(view, replica, &focus, &mut mutations),
+                MutationKind::AddEdge => add_edge(view, &focus, &mut mutations),
+                MutationKind::UpdateAttributes => self.update_attributes(view, &focus, &mut mutations),
+                MutationKind::RemoveEdge => self.remove_edge(view, &mut mutations),
+                MutationKind::MoveEdge => self.move_edge(view, &focus, &mut mutations),
+                MutationKind::RemoveVertex => {
+                    let removable = focus.iter().filter(|vertex| !vertex.is_root());
+                    mutations.extend(removable.map(|&vertex| Mutation::RemoveVertex { vertex }));
+                }
+            }
+        }
+        mutations
+    }
+
+    fn in_focus(&self, vertex: VertexId) -> bool {
+        vertex.is_root() || self.focus.contains(&vertex) || vertex.0.replica != dsr_core::ReplicaId::SCENE
+    }
+
+    fn update_attributes(&self, view: &View<'_>, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
+        let vertices = focus.iter().map(|&vertex| ElementId::Vertex(vertex));
+        let edges = self.edges_in_focus(view).map(|shown| ElementId::Edge(shown.id));
+        for target in vertices.chain(edges) {
+            let update = |value| Mutation::UpdateAttributes { target, updates: [(ATTRIBUTE.into(), value)].into() };
+            mutations.push(update(Some(Value::Int(1))));
+            if view.attribute(target, ATTRIBUTE).is_some() {
+                mutations.push(update(None));
+            }
+        }
+    }
+
+    fn remove_edge(&self, view: &View<'_>, mutations: &mut Vec<Mutation>) {
+        mutations.extend(self.edges_in_focus(view).map(|shown| Mutation::RemoveEdge { key: shown.edge.key() }));
+    }
+
+    /// Kinematic edges to other parents, symbolic ones to other targets.
+    fn move_edge(&self, view: &View<'_>, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
+        for shown in self.edges_in_focus(view) {
+            let from = shown.edge.key();
+            for &end in focus {
+                let mut to = from.clone();
+                if shown.edge.is_rt() {
+                    to.from = end;
+                } else {
+                    to.to = end;
+                }
+                if to != from {
+                    mutations.push(Mutation::MoveEdge { from: from.clone(), to, attributes: AttributeMap::new() });
+                }
+            }
+        }
+    }
+
+    fn edges_in_focus<'v>(&self, view: &'v View<'_>) -> impl Iterator<Item = dsr_core::ShownEdge<'v>> {
+        let inside = |shown: &&dsr_core::ShownEdge<'v>| self.in_focus(shown.edge.from) && self.in_focus(shown.edge.to);
+        view.edges().iter().filter(inside).copied()
+    }
+}
+
+/// Below each vertex of the tree, and *in* each vertex; one more with a shared name below the root.
+fn add_vertex(view: &View<'_>, replica: usize, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
+    let Some(dot) = view.state().next_dot(replica_id(replica)) else { return };
+    let vertex = NewVertex::new(NEW_TYPE, &fresh_name(dot));
+    for &other in focus {
+        let links = [VertexLink::child_of(other), VertexLink::to(FUNCTIONAL, other)];
+        mutations.extend(links.map(|link| Mutation::AddVertex { vertex: vertex.clone(), link }));
+    }
+    let twin = NewVertex::new(NEW_TYPE, SHARED_NAME);
+    mutations.push(Mutation::AddVertex { vertex: twin, link: VertexLink::child_of(VertexId::ROOT) });
+}
+
+/// A functional and a plain symbolic edge between each two vertices; a kinematic one to each vertex that
+/// has no parent.
+fn add_edge(view: &View<'_>, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
+    for &from in focus {
+        for &to in focus.iter().filter(|&&to| to != from) {
+            let orphan = matches!(view.placement(to), Some(Placement::Outside | Placement::Detached));
+            let labels = [(FUNCTIONAL, !from.is_root()), (PLAIN, true), (RT, orphan)];
+            let labels = labels.into_iter().filter(|(_, wanted)| *wanted);
+            mutations.extend(labels.map(|(label, _)| Mutation::AddEdge {
+                key: EdgeKey::new(from, label, to),
+                attributes: AttributeMap::new(),
+            }));
+        }
+    }
+}

@@ -1,0 +1,227 @@
+//! The checked semantics: `dsr-core` itself, as it ships, behind the checker's trait.
+
+pub mod alphabet;
+mod intent;
+mod renaming;
+
+use crate::semantics::{Breach, Semantics, Step, Witnesses};
+use alphabet::Alphabet;
+use dsr_core::invariant::{Violation, check_repairs, check_view};
+use dsr_core::{
+    Author, Delta, Dictionary, Mutation, MutationKind, Repair, ReplicaId, Rule, State, View, check_well_formed,
+    delta_for, digest, view,
+};
+use std::fmt;
+
+/// `dsr-core` from an initial graph, with an alphabet of concrete mutations.
+#[derive(Clone, Debug)]
+pub struct Checked {
+    /// The dictionary of all replicas.
+    pub dictionary: Dictionary,
+    /// What every replica starts from.
+    pub initial: State,
+    /// What replicas may do.
+    pub alphabet: Alphabet,
+}
+
+/// A mutation that prints for people.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct Act(pub Mutation);
+
+impl fmt::Display for Act {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.0.kind().name())?;
+        match &self.0 {
+            Mutation::AddVertex { vertex, link } if link.outgoing => {
+                write!(f, " {:?} -{}-> {}", vertex.name, link.label, link.other)
+            }
+            Mutation::AddVertex { vertex, link } => write!(f, " {} -{}-> {:?}", link.other, link.label, vertex.name),
+            Mutation::AddEdge { key, .. } | Mutation::RemoveEdge { key } => write!(f, " {key}"),
+            Mutation::MoveEdge { from, to, .. } => write!(f, " {from} to {to}"),
+            Mutation::RemoveVertex { vertex } => write!(f, " {vertex}"),
+            Mutation::UpdateAttributes { target, updates } => {
+                write!(f, " {target}")?;
+                for (name, value) in updates {
+                    match value {
+                        Some(value) => write!(f, " {name}={value}")?,
+                        None => write!(f, " unset {name}")?,
+                    }
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+/// The replica that index `replica` of the checker stands for; the scene's author is agent 0.
+pub fn replica_id(replica: usize) -> ReplicaId {
+    ReplicaId::agent(u32::try_from(replica).unwrap_or(u32::MAX).saturating_add(1))
+}
+
+/// The kinds of repair, by bit.
+const REPAIRS: [&str; 8] = [
+    "repair: same-key",
+    "repair: functional",
+    "repair: rt-parent",
+    "repair: cycle-broken",
+    "repair: detached",
+    "repair: reattached",
+    "repair: name-clash",
+    "repair: undeclared",
+];
+const CONCURRENT_WRITES: usize = REPAIRS.len();
+const PENDING: usize = CONCURRENT_WRITES + 1;
+const CLOUD: usize = PENDING + 1;
+
+fn repair_bit(repair: &Repair) -> usize {
+    match repair {
+        Repair::Superseded { rule: Rule::SameKey, .. } => 0,
+        Repair::Superseded { rule: Rule::Functional, .. } => 1,
+        Repair::Superseded { rule: Rule::RtParent, .. } => 2,
+        Repair::CycleBroken { .. } => 3,
+        Repair::Detached { .. } => 4,
+        Repair::Reattached { .. } => 5,
+        Repair::NameClash { .. } => 6,
+        Repair::Undeclared { .. } => 7,
+    }
+}
+
+/// The clause that a violation names.
+fn breach(violation: &Violation) -> Breach {
+    let clause = match violation {
+        Violation::NoPath { .. } => "INV-1",
+        Violation::Dangling { .. } | Violation::DanglingWrite { .. } => "INV-2",
+        Violation::TwoParents { .. } | Violation::NotRooted { .. } | Violation::Misplaced { .. } => "INV-3",
+        Violation::SelfLoop { .. } => "INV-4",
+        Violation::Undeclared { .. } => "INV-5",
+        Violation::TwoShown { .. } => "INV-6",
+        Violation::Needless { .. } => "VIEW-10",
+        Violation::Silent { .. } => "VIEW-9",
+        _ => "INV",
+    };
+    Breach::new(clause, violation)
+}
+
+/// Judges a view by every clause that holds of one state. `[property: INV-1]` `[property: INV-2]`
+/// `[property: INV-3]` `[property: INV-4]` `[property: INV-5]` `[property: INV-6]` `[property: VIEW-9]`
+/// `[property: VIEW-10]` `[property: INTENT-2]` `[property: STATE-6]`
+pub fn judge_view(view: &View<'_>) -> Result<(), Breach> {
+    check_well_formed(view.state()).map_err(|fault| Breach::new("STATE-6", fault))?;
+    check_view(view).map_err(|violation| breach(&violation))?;
+    check_repairs(view).map_err(|violation| breach(&violation))?;
+    intent::check_hidden_are_outranked(view)
+}
+
+/// What a view bears witness of.
+fn witnesses_of(view: &View<'_>) -> Witnesses {
+    let mut seen = Witnesses::default();
+    for repair in view.repairs() {
+        seen.insert(Witnesses::bit(repair_bit(repair)));
+    }
+    if has_concurrent_writes(view) {
+        seen.insert(Witnesses::bit(CONCURRENT_WRITES));
+    }
+    let state = view.state();
+    let unseen = |dot: dsr_core::Dot| dot.sequence != 0 && !state.context().contains(dot);
+    if state.records().any(|(_, record)| record.anchors().any(unseen)) {
+        seen.insert(Witnesses::bit(PENDING));
+    }
+    if state.context().cloud().len() > 0 {
+        seen.insert(Witnesses::bit(CLOUD));
+    }
+    seen
+}
+
+fn has_concurrent_writes(view: &View<'_>) -> bool {
+    view.writes().windows(2).any(|pair| pair[0].1.target == pair[1].1.target && pair[0].1.name == pair[1].1.name)
+}
+
+impl Semantics for Checked {
+    type State = State;
+    type Delta = Delta;
+    type Mutation = Act;
+
+    fn name(&self) -> String {
+        "checked".into()
+    }
+
+    fn initial(&self) -> State {
+        self.initial.clone()
+    }
+
+    fn mutations(&self, state: &State, replica: usize) -> Vec<Act> {
+        self.alphabet.enabled(&view(state, &self.dictionary), replica).into_iter().map(Act).collect()
+    }
+
+    fn mutate(&self, state: &State, replica: usize, mutation: &Act) -> Option<Step<Self>> {
+        let author = Author::new(replica_id(replica));
+        let delta = mutation.0.delta(&view(state, &self.dictionary), author).ok()?;
+        let after = state.joined(&delta);
+        Some(Step { delta, after })
+    }
+
+    fn join(&self, state: &State, delta: &Delta) -> State {
+        state.joined(delta)
+    }
+
+    fn repair(&self, ours: &State, theirs: &State) -> Option<Delta> {
+        Some(delta_for(ours, &digest(theirs)))
+    }
+
+    fn join_states(&self, left: &State, right: &State) -> Option<State> {
+        Some(left.joined(right))
+    }
+
+    fn judge(&self, state: &State) -> Result<Witnesses, Breach> {
+        let view = view(state, &self.dictionary);
+        judge_view(&view)?;
+        Ok(witnesses_of(&view))
+    }
+
+    fn judge_step(&self, before: &State, _replica: usize, mutation: &Act, step: &Step<Self>) -> Result<(), Breach> {
+        intent::check_step(&view(before, &self.dictionary), &mutation.0, step)
+    }
+
+    fn judge_delivery(&self, before: &State, after: &State) -> Result<(), Breach> {
+        intent::check_delivery(before, after)
+    }
+
+    fn kind(&self, mutation: &Act) -> usize {
+        mutation.0.kind() as usize
+    }
+
+    fn kinds(&self) -> Vec<&'static str> {
+        MutationKind::ALL.map(MutationKind::name).to_vec()
+    }
+
+    fn witnesses(&self) -> Vec<&'static str> {
+        let mut names = REPAIRS.to_vec();
+        names.extend(["two live writes of one attribute", "a pending record", "a gap in a context"]);
+        names
+    }
+
+    fn is_order_sensitive(&self, state: &State) -> bool {
+        let view = view(state, &self.dictionary);
+        !view.repairs().is_empty() || has_concurrent_writes(&view)
+    }
+
+    fn rename_state(&self, state: &State, to: &[usize]) -> State {
+        renaming::rename(state, to)
+    }
+
+    fn rename_delta(&self, delta: &Delta, to: &[usize]) -> Delta {
+        renaming::rename(delta, to)
+    }
+
+    fn changes(&self, before: &State, after: &State) -> Vec<String> {
+        intent::changes(&view(before, &self.dictionary), &view(after, &self.dictionary))
+    }
+
+    fn mutation_json(&self, mutation: &Act) -> serde_json::Value {
+        { let _ = mutation; serde_json::Value::Null }
+    }
+
+    fn state_json(&self, state: &State) -> serde_json::Value {
+        { let _ = state; serde_json::Value::Null }
+    }
+}

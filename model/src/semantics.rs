@@ -1,0 +1,129 @@
+//! What the checker needs of a replicated graph: implement this and every layer judges it.
+//!
+//! The checker never looks inside a state: it asks for mutations, delivers deltas, compares states, and
+//! lets the semantics itself judge what must hold of one state or one step.
+
+use std::fmt::{Debug, Display};
+use std::hash::Hash;
+
+/// A semantics of replicas that mutate locally and exchange deltas.
+pub trait Semantics: Send + Sync {
+    /// A replica's state. Equality must be that of canonical bytes.
+    type State: Clone + Eq + Hash + Ord + Debug + Send + Sync;
+    /// What one mutation broadcasts.
+    type Delta: Clone + Eq + Hash + Ord + Debug + Send + Sync;
+    /// A concrete mutation.
+    type Mutation: Clone + Eq + Ord + Hash + Debug + Display + Send + Sync;
+
+    /// Its name in reports.
+    fn name(&self) -> String;
+
+    /// The state that every replica starts from.
+    fn initial(&self) -> Self::State;
+
+    /// Every concrete mutation that replica `replica` may try in `state`, in a fixed order; those that
+    /// [`mutate`](Self::mutate) refuses count as not enabled.
+    fn mutations(&self, state: &Self::State, replica: usize) -> Vec<Self::Mutation>;
+
+    /// What a mutation broadcasts and leaves behind, or `None` when it is refused.
+    fn mutate(&self, state: &Self::State, replica: usize, mutation: &Self::Mutation) -> Option<Step<Self>>;
+
+    /// The state after a delta is delivered. `[spec: JOIN-3]`
+    fn join(&self, state: &Self::State, delta: &Self::Delta) -> Self::State;
+
+    /// What `theirs` gets when it resynchronises with `ours`, or `None` if there is no such means.
+    /// `[spec: SYNC-3]`
+    fn repair(&self, ours: &Self::State, theirs: &Self::State) -> Option<Self::Delta>;
+
+    /// The join of two whole states, as the order of the semilattice defines it; `None` if there is none.
+    fn join_states(&self, left: &Self::State, right: &Self::State) -> Option<Self::State>;
+
+    /// Judges one state by itself: every clause that must always hold of it.
+    fn judge(&self, state: &Self::State) -> Result<Witnesses, Breach>;
+
+    /// Judges a local step: what must hold between a state, a mutation and the state after it.
+    fn judge_step(
+        &self,
+        before: &Self::State,
+        replica: usize,
+        mutation: &Self::Mutation,
+        step: &Step<Self>,
+    ) -> Result<(), Breach>;
+
+    /// Judges a delivery: what must hold between a state and the state after more was delivered.
+    fn judge_delivery(&self, before: &Self::State, after: &Self::State) -> Result<(), Breach>;
+
+    /// Which of the kinds of mutation this is, as an index below [`kinds`](Self::kinds).
+    fn kind(&self, mutation: &Self::Mutation) -> usize;
+
+    /// The names of the kinds of mutation.
+    fn kinds(&self) -> Vec<&'static str>;
+
+    /// The names of the witnesses that [`judge`](Self::judge) can report, by bit.
+    fn witnesses(&self) -> Vec<&'static str>;
+
+    /// Whether what a replica may do in `state` depends on how replicas are ordered (who wins a tie).
+    /// `true` is always safe: it only forgoes symmetry.
+    fn is_order_sensitive(&self, state: &Self::State) -> bool;
+
+    /// The state with every replica `r` renamed to `to[r]`.
+    fn rename_state(&self, state: &Self::State, to: &[usize]) -> Self::State;
+
+    /// The delta with every replica `r` renamed to `to[r]`.
+    fn rename_delta(&self, delta: &Self::Delta, to: &[usize]) -> Self::Delta;
+
+    /// What changed between two states, a line each, for people.
+    fn changes(&self, before: &Self::State, after: &Self::State) -> Vec<String>;
+
+    /// A mutation as JSON, for traces.
+    fn mutation_json(&self, mutation: &Self::Mutation) -> serde_json::Value;
+
+    /// A state as JSON, for traces.
+    fn state_json(&self, state: &Self::State) -> serde_json::Value;
+}
+
+/// What a mutation broadcasts and leaves behind.
+#[derive(Debug)]
+pub struct Step<S: Semantics + ?Sized> {
+    /// What is broadcast.
+    pub delta: S::Delta,
+    /// The author's own state after it.
+    pub after: S::State,
+}
+
+/// A clause that does not hold, and with what values.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct Breach {
+    /// The clause's id.
+    pub clause: &'static str,
+    /// What is wrong, with the values.
+    pub detail: String,
+}
+
+impl Breach {
+    /// A breach of `clause`.
+    pub fn new(clause: &'static str, detail: impl Display) -> Self {
+        Self { clause, detail: detail.to_string() }
+    }
+}
+
+/// A set of things that were really seen, by bit: the proof that a check was not vacuous.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+pub struct Witnesses(pub u128);
+
+impl Witnesses {
+    /// The witness of one bit.
+    pub const fn bit(at: usize) -> Self {
+        Self(1 << at)
+    }
+
+    /// Adds the witnesses of `other`.
+    pub const fn insert(&mut self, other: Self) {
+        self.0 |= other.0;
+    }
+
+    /// Whether bit `at` was seen.
+    pub const fn has(self, at: usize) -> bool {
+        self.0 >> at & 1 == 1
+    }
+}

@@ -1,0 +1,214 @@
+//! Interned states and deltas, and memoised joins: so that the production core runs inside the search at
+//! the speed of integers. Replica states recur far more often than histories do.
+
+use crate::semantics::{Breach, Semantics, Step, Witnesses};
+use rustc_hash::FxHashMap;
+use std::hash::Hash;
+use std::sync::Arc;
+
+/// A state's number in its [`Tables`].
+pub type StateId = u32;
+/// A delta's number in its [`Tables`].
+pub type DeltaId = u32;
+/// No state, no delta.
+pub const NONE: u32 = u32::MAX;
+
+/// Numbers for equal values.
+#[derive(Debug)]
+struct Interner<T> {
+    values: Vec<Arc<T>>,
+    ids: FxHashMap<Arc<T>, u32>,
+}
+
+impl<T: Eq + Hash> Interner<T> {
+    fn new() -> Self {
+        Self { values: Vec::new(), ids: FxHashMap::default() }
+    }
+
+    fn intern(&mut self, value: T) -> u32 {
+        if let Some(&id) = self.ids.get(&value) {
+            return id;
+        }
+        // A search that reaches `NONE` entries is far beyond any memory.
+        let id = u32::try_from(self.values.len()).unwrap_or(NONE);
+        let value = Arc::new(value);
+        self.values.push(value.clone());
+        self.ids.insert(value, id);
+        id
+    }
+
+    fn get(&self, id: u32) -> Arc<T> {
+        self.values[id as usize].clone()
+    }
+}
+
+/// One thing that a replica can do in a state.
+#[derive(Clone, Debug)]
+pub struct Move {
+    /// Its place in [`Semantics::mutations`].
+    pub index: u32,
+    /// The delta that it broadcasts.
+    pub delta: DeltaId,
+    /// Its kind.
+    pub kind: usize,
+}
+
+/// Everything that one run has computed of the semantics.
+#[derive(Debug)]
+pub struct Tables<S: Semantics> {
+    states: Interner<S::State>,
+    deltas: Interner<S::Delta>,
+    kinds: Vec<u32>,
+    joins: FxHashMap<(StateId, DeltaId), StateId>,
+    moves: FxHashMap<(StateId, usize), Arc<[Move]>>,
+    sensitive: FxHashMap<StateId, bool>,
+    renamed_states: FxHashMap<(StateId, usize), StateId>,
+    renamed_deltas: FxHashMap<(DeltaId, usize), DeltaId>,
+    /// What was seen.
+    pub witnesses: Witnesses,
+    /// States judged by the semantics, each once.
+    pub judged: u64,
+}
+
+impl<S: Semantics> Default for Tables<S> {
+    fn default() -> Self {
+        Self {
+            states: Interner::new(),
+            deltas: Interner::new(),
+            kinds: Vec::new(),
+            joins: FxHashMap::default(),
+            moves: FxHashMap::default(),
+            sensitive: FxHashMap::default(),
+            renamed_states: FxHashMap::default(),
+            renamed_deltas: FxHashMap::default(),
+            witnesses: Witnesses::default(),
+            judged: 0,
+        }
+    }
+}
+
+impl<S: Semantics> Tables<S> {
+    /// The number of a state.
+    pub fn intern(&mut self, state: S::State) -> StateId {
+        self.states.intern(state)
+    }
+
+    /// The number of a delta that a mutation of this kind broadcast.
+    pub fn intern_delta(&mut self, delta: S::Delta, kinds: u32) -> DeltaId {
+        let id = self.deltas.intern(delta);
+        let at = id as usize;
+        if at == self.kinds.len() {
+            self.kinds.push(0);
+        }
+        self.kinds[at] |= kinds;
+        id
+    }
+
+    /// A state by its number.
+    pub fn state(&self, id: StateId) -> Arc<S::State> {
+        self.states.get(id)
+    }
+
+    /// A delta by its number.
+    pub fn delta(&self, id: DeltaId) -> Arc<S::Delta> {
+        self.deltas.get(id)
+    }
+
+    /// The kinds of mutation that broadcast this delta, by bit.
+    pub fn delta_kinds(&self, id: DeltaId) -> u32 {
+        self.kinds[id as usize]
+    }
+
+    /// How many different states and deltas were met.
+    pub fn sizes(&self) -> (usize, usize) {
+        (self.states.values.len(), self.deltas.values.len())
+    }
+
+    /// The state after a delivery.
+    pub fn join(&mut self, semantics: &S, state: StateId, delta: DeltaId) -> StateId {
+        if let Some(&joined) = self.joins.get(&(state, delta)) {
+            return joined;
+        }
+        let joined = semantics.join(&self.state(state), &self.delta(delta));
+        let joined = self.intern(joined);
+        self.joins.insert((state, delta), joined);
+        joined
+    }
+
+    /// What replica `replica` can do in a state; each step is judged when it is first computed.
+    pub fn moves(&mut self, semantics: &S, state: StateId, replica: usize) -> Result<Arc<[Move]>, StepFault<S>> {
+        if let Some(moves) = self.moves.get(&(state, replica)) {
+            return Ok(moves.clone());
+        }
+        let before = self.state(state);
+        let mut moves = Vec::new();
+        for (index, mutation) in semantics.mutations(&before, replica).into_iter().enumerate() {
+            let Some(step) = semantics.mutate(&before, replica, &mutation) else { continue };
+            if let Err(breach) = semantics.judge_step(&before, replica, &mutation, &step) {
+                return Err(StepFault { breach, mutation, step });
+            }
+            let kind = semantics.kind(&mutation);
+            let delta = self.intern_delta(step.delta, 1 << kind);
+            moves.push(Move { index: u32::try_from(index).unwrap_or(NONE), delta, kind });
+        }
+        let moves: Arc<[Move]> = moves.into();
+        self.moves.insert((state, replica), moves.clone());
+        Ok(moves)
+    }
+
+    /// Whether what replicas may do in a state depends on their order.
+    pub fn is_order_sensitive(&mut self, semantics: &S, state: StateId) -> bool {
+        if let Some(&sensitive) = self.sensitive.get(&state) {
+            return sensitive;
+        }
+        let sensitive = semantics.is_order_sensitive(&self.state(state));
+        self.sensitive.insert(state, sensitive);
+        sensitive
+    }
+
+    /// A state with its replicas renamed by the permutation `to`, whose number is `permutation`.
+    pub fn rename_state(&mut self, semantics: &S, state: StateId, permutation: usize, to: &[usize]) -> StateId {
+        if permutation == 0 || state == NONE {
+            return state;
+        }
+        if let Some(&renamed) = self.renamed_states.get(&(state, permutation)) {
+            return renamed;
+        }
+        let renamed = self.intern(semantics.rename_state(&self.state(state), to));
+        self.renamed_states.insert((state, permutation), renamed);
+        renamed
+    }
+
+    /// A delta with its replicas renamed.
+    pub fn rename_delta(&mut self, semantics: &S, delta: DeltaId, permutation: usize, to: &[usize]) -> DeltaId {
+        if permutation == 0 || delta == NONE {
+            return delta;
+        }
+        if let Some(&renamed) = self.renamed_deltas.get(&(delta, permutation)) {
+            return renamed;
+        }
+        let kinds = self.delta_kinds(delta);
+        let renamed = self.intern_delta(semantics.rename_delta(&self.delta(delta), to), kinds);
+        self.renamed_deltas.insert((delta, permutation), renamed);
+        renamed
+    }
+
+    /// Judges a state and collects what it bears witness of.
+    pub fn judge(&mut self, semantics: &S, state: &S::State) -> Result<(), Breach> {
+        self.judged += 1;
+        let seen = semantics.judge(state)?;
+        self.witnesses.insert(seen);
+        Ok(())
+    }
+}
+
+/// A local step that breaks a clause.
+#[derive(Debug)]
+pub struct StepFault<S: Semantics> {
+    /// The clause.
+    pub breach: Breach,
+    /// The mutation.
+    pub mutation: S::Mutation,
+    /// What it did.
+    pub step: Step<S>,
+}
