@@ -28,6 +28,7 @@ impl ReplicaId {
     }
 
     /// The same agent after a restart that lost its counter, or `None` when incarnations are used up.
+    /// `[spec: CRASH-2]`
     pub const fn next_incarnation(self) -> Option<Self> {
         match self.incarnation.checked_add(1) {
             Some(incarnation) => Some(Self { agent: self.agent, incarnation }),
@@ -75,7 +76,7 @@ impl fmt::Display for Dot {
 pub struct ParseDotError;
 
 fn decimal<T: FromStr>(text: &str) -> Result<T, ParseDotError> {
-    // `FromStr` for integers accepts `+7` and `007`; one dot must have one spelling.
+    // `FromStr` for integers accepts `+7` and `007`; one dot must have one spelling. [spec: ID-4]
     let canonical = text == "0" || (!text.starts_with('0') && text.bytes().all(|b| b.is_ascii_digit()));
     if !canonical {
         return Err(ParseDotError);

@@ -5,7 +5,7 @@ use crate::record::EdgeKey;
 use crate::state::Delta;
 use crate::view::View;
 
-/// Adds an edge between two live vertices. `[spec: MUT-2]`
+/// Adds an edge between two live vertices. `[spec: MUT-2]` `[spec: MUT-2.7]`
 ///
 /// Supersedes every claim on its register that the state holds unseen by the view. An `RT` edge needs a
 /// child without a kinematic parent and a parent that has a place in the tree and is not below the child.

@@ -61,6 +61,7 @@ pub fn is_root_name(name: &str) -> bool {
 /// Adds a vertex together with the edge that links it to a live one. `[spec: MUT-1]`
 ///
 /// The vertex is `view.state().next_dot(author.replica)`; its edge is the dot after that.
+/// `[spec: MUT-1.4]` `[spec: MUT-1.5]`
 pub fn add_vertex(view: &View<'_>, author: Author, vertex: &NewVertex, link: &VertexLink) -> Result<Delta, AddVertexError> {
     check_vertex(view, vertex)?;
     attributes::check(view.dictionary(), vertex.attributes.iter())?;
@@ -79,12 +80,14 @@ pub fn add_vertex(view: &View<'_>, author: Author, vertex: &NewVertex, link: &Ve
     let (from, to) = if link.outgoing { (new, link.other) } else { (link.other, new) };
     let key = EdgeKey { from, to, label: link.label.clone() };
     // Only a functional label of a live source can have competitors, and then only pending ones.
+    // [spec: MUT-1.6]
     draft.kill_register(view, &key);
     draft.edge(&key, &link.attributes)?;
     draft.write_all(dot, &vertex.attributes)?;
     Ok(draft.delta)
 }
 
+/// Whether type and name may be used, and the name is free. `[spec: MUT-1.2]` `[spec: MUT-1.3]`
 fn check_vertex(view: &View<'_>, vertex: &NewVertex) -> Result<(), AddVertexError> {
     for text in [&vertex.vertex_type, &vertex.name] {
         let bytes = text.len();
@@ -104,6 +107,7 @@ fn check_vertex(view: &View<'_>, vertex: &NewVertex) -> Result<(), AddVertexErro
     }
 }
 
+/// Whether the link can be made. Its other end may be stranded. `[spec: MUT-1.1]` `[spec: MUT-1.7]`
 fn check_link(view: &View<'_>, link: &VertexLink) -> Result<(), super::NewEdgeError> {
     use super::NewEdgeError as E;
     new_edge::check_label(view.dictionary(), &link.label)?;

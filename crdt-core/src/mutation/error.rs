@@ -8,7 +8,7 @@ use crate::value::ValueType;
 use alloc::vec::Vec;
 use core::fmt;
 
-/// A counter is used up. `[spec: LIMIT-5]` `[spec: LIMIT-6]`
+/// A counter is used up. `[spec: LIMIT-5]` `[spec: LIMIT-6]` `[spec: MUT-0.3]`
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExhaustedError {

@@ -2,7 +2,8 @@
 //! `[spec: MUT-0]`
 //!
 //! `apply(m) = join(state, delta)`. A delta's context holds only the dots that it makes and the dots that it
-//! kills, so deltas may arrive in any order; deltas compose by join. Nothing else changes a graph.
+//! kills, so deltas may arrive in any order (`[spec: MUT-0.1]`); deltas compose by join (`[spec: MUT-0.4]`).
+//! Nothing else changes a graph.
 
 mod add_edge;
 mod add_vertex;
@@ -166,7 +167,7 @@ impl Mutation {
     }
 }
 
-/// Makes the records of one delta: hands out fresh dots, all with one stamp.
+/// Makes the records of one delta: hands out fresh dots, all with one stamp. `[spec: MUT-0.2]`
 struct Draft {
     delta: Delta,
     author: Author,

@@ -8,7 +8,8 @@ use crate::view::{View, view};
 /// Moves the edge shown under one key to another, in one delta: re-parenting, changing rooms, the next
 /// step of an action. `[spec: MUT-5]`
 ///
-/// The edge under the new key is a new instance and has exactly the given attributes.
+/// The edge under the new key is a new instance and has exactly the given attributes. Old and new register
+/// are superseded, and nothing is stranded. `[spec: MUT-5.2]` `[spec: MUT-5.4]` `[spec: MUT-5.5]`
 pub fn move_edge(
     view_before: &View<'_>,
     author: Author,
@@ -26,7 +27,7 @@ pub fn move_edge(
     let mut draft = Draft::new(view_before.state(), author)?;
     draft.kill_register(view_before, from);
 
-    // The new edge must be possible where the old one is gone.
+    // The new edge must be possible where the old one is gone. [spec: MUT-5.3]
     let removed = view_before.state().joined(&draft.delta);
     new_edge::check(&view(&removed, view_before.dictionary()), to)?;
     draft.kill_register(view_before, to);

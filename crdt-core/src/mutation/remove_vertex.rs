@@ -6,6 +6,8 @@ use crate::state::Delta;
 use crate::view::View;
 
 /// Removes a vertex. The delta is one dead dot: closure takes the edges and the attributes. `[spec: MUT-6]`
+///
+/// Refused for the root and where it strands others. `[spec: MUT-6.2]` `[spec: MUT-6.3]`
 pub fn remove_vertex(view: &View<'_>, vertex: VertexId) -> Result<Delta, RemoveVertexError> {
     if vertex.is_root() {
         return Err(RemoveVertexError::Root);

@@ -45,7 +45,7 @@ impl fmt::Display for ElementId {
 /// Sets and unsets attributes of a vertex in the graph or of an edge that is shown. `[spec: MUT-3]`
 ///
 /// Kills every write of each given attribute that the state holds; *unset* adds none, so that a concurrent
-/// write survives it.
+/// write survives it. The register of an edge is left alone. `[spec: MUT-3.5]` `[spec: MUT-3.6]`
 pub fn update_attributes(
     view: &View<'_>,
     author: Author,
@@ -72,6 +72,7 @@ pub fn update_attributes(
     Ok(draft.delta)
 }
 
+/// Whether there is something to do, and it can be done. `[spec: MUT-3.3]` `[spec: MUT-3.4]`
 fn check(view: &View<'_>, target: ElementId, updates: &AttributeUpdates) -> Result<(), UpdateAttributesError> {
     if updates.is_empty() {
         return Err(UpdateAttributesError::Empty);

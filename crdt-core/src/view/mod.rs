@@ -81,13 +81,14 @@ fn key_of<'a>(shown: &ShownEdge<'a>) -> (VertexId, VertexId, &'a str) {
     (shown.edge.from, shown.edge.to, &shown.edge.label)
 }
 
-/// The root, then every vertex held.
+/// The root, then every vertex held. `[spec: VIEW-1.1]`
 fn live_vertices(state: &State) -> Vec<VertexId> {
     let held = state.records().filter(|(_, record)| matches!(record, Record::Vertex(_)));
     core::iter::once(VertexId::ROOT).chain(held.map(|(dot, _)| VertexId(dot))).collect()
 }
 
 /// Every edge claim whose ends live, by dot: what is pending, or anchored to no vertex, is invisible.
+/// No dictionary hides a label. `[spec: VIEW-1.1]` `[spec: DICT-4]`
 fn visible_edges<'s>(state: &'s State, vertices: &[VertexId]) -> Vec<ShownEdge<'s>> {
     let lives = |vertex: VertexId| vertices.binary_search(&vertex).is_ok();
     state
