@@ -33,6 +33,7 @@ extern crate alloc;
 #[cfg(feature = "std")]
 extern crate std;
 
+mod codec;
 mod context;
 mod dictionary;
 mod digest;
@@ -43,11 +44,16 @@ pub mod json;
 pub mod limits;
 mod mutation;
 mod record;
+#[cfg(feature = "serde")]
+pub mod scene;
 mod state;
 mod value;
 mod view;
 mod wellformed;
 
+pub use codec::{
+    DecodeError, MalformedDigest, check_digest, decode, decode_digest, encode, encode_digest,
+};
 pub use context::{CausalContext, Run, runs_of};
 pub use dictionary::Dictionary;
 pub use digest::{Digest, Fingerprint, delta_for, digest, fingerprint};

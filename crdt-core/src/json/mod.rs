@@ -11,6 +11,10 @@
 //! | dictionary | `{"closed": true, "edge_labels": ["in"], …}` | `dictionary` |
 //! | edge key, author | `{"from": "r1.1", "label": "in", "to": "r1.3"}`, `{"replica": "r1"}` | `edge_key`, `author` |
 //! | mutation | `{"remove_vertex": {"vertex": "r1.1"}}` | `mutation` |
+//! | record | `{"vertex": {"type": "room", "name": "kitchen", "stamp": 1}}` | `record` |
+//! | set of dots | `{"r1": "1-5,7"}` | `runs` |
+//! | state, digest | `{"context": …, "store": …}`, `{"context": …, "live": …}` | `state` |
+//! | repair | `{"kind": "detached", "vertex": "r1.1"}` | `repair` |
 //!
 //! ```
 //! # use dsr_core::Value;
@@ -26,4 +30,8 @@ mod ids;
 mod map;
 mod mutation;
 mod number;
+mod record;
+mod repair;
+mod runs;
+mod state;
 mod value;
