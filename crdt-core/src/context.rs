@@ -5,7 +5,8 @@
 //! `[spec: CTX-1]` `[spec: CTX-2]`
 
 use crate::dot::{Dot, ReplicaId};
-use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::collections::BTreeSet;
+use alloc::vec::Vec;
 
 /// A set of dots: a version vector and a cloud. `[spec: CTX-1]`
 ///
@@ -13,14 +14,15 @@ use alloc::collections::{BTreeMap, BTreeSet};
 /// its replica's entry (the next one would have been absorbed); no sequence is 0.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
 pub struct CausalContext {
-    vector: BTreeMap<ReplicaId, u64>,
+    /// Ascending by replica.
+    vector: Vec<(ReplicaId, u64)>,
     cloud: BTreeSet<Dot>,
 }
 
 impl CausalContext {
     /// The empty set.
     pub const fn new() -> Self {
-        Self { vector: BTreeMap::new(), cloud: BTreeSet::new() }
+        Self { vector: Vec::new(), cloud: BTreeSet::new() }
     }
 
     /// Whether no dot has been seen.
@@ -35,7 +37,14 @@ impl CausalContext {
 
     /// How many events of `replica` have been seen without a gap.
     pub fn prefix(&self, replica: ReplicaId) -> u64 {
-        self.vector.get(&replica).copied().unwrap_or(0)
+        self.vector.binary_search_by_key(&replica, |entry| entry.0).map_or(0, |at| self.vector[at].1)
+    }
+
+    fn set_prefix(&mut self, replica: ReplicaId, sequence: u64) {
+        match self.vector.binary_search_by_key(&replica, |entry| entry.0) {
+            Ok(at) => self.vector[at].1 = sequence,
+            Err(at) => self.vector.insert(at, (replica, sequence)),
+        }
     }
 
     /// The greatest sequence seen of `replica`, beyond gaps too; 0 when none.
@@ -51,7 +60,7 @@ impl CausalContext {
             return;
         }
         if dot.sequence == self.prefix(dot.replica) + 1 {
-            self.vector.insert(dot.replica, dot.sequence);
+            self.set_prefix(dot.replica, dot.sequence);
             self.absorb(dot.replica);
         } else {
             self.cloud.insert(dot);
@@ -61,14 +70,14 @@ impl CausalContext {
     /// Adds every dot of `replica` up to `sequence`.
     pub fn insert_prefix(&mut self, replica: ReplicaId, sequence: u64) {
         if sequence > self.prefix(replica) {
-            self.vector.insert(replica, sequence);
+            self.set_prefix(replica, sequence);
             self.absorb(replica);
         }
     }
 
     /// Unites with `other`. `[spec: CTX-3]`
     pub fn join(&mut self, other: &Self) {
-        for (&replica, &sequence) in &other.vector {
+        for &(replica, sequence) in &other.vector {
             self.insert_prefix(replica, sequence);
         }
         for &dot in &other.cloud {
@@ -78,7 +87,7 @@ impl CausalContext {
 
     /// Whether every dot of `other` has been seen here.
     pub fn includes(&self, other: &Self) -> bool {
-        other.vector.iter().all(|(&replica, &sequence)| {
+        other.vector.iter().all(|&(replica, sequence)| {
             let prefix = self.prefix(replica);
             // The cloud never closes the gap right above the prefix, so a longer prefix cannot be covered.
             sequence <= prefix
@@ -87,7 +96,7 @@ impl CausalContext {
 
     /// The version vector: for each replica, how many events were seen without a gap.
     pub fn vector(&self) -> impl ExactSizeIterator<Item = (ReplicaId, u64)> + '_ {
-        self.vector.iter().map(|(&replica, &sequence)| (replica, sequence))
+        self.vector.iter().copied()
     }
 
     /// The dots seen beyond a gap, in order.
@@ -95,10 +104,19 @@ impl CausalContext {
         self.cloud.iter().copied()
     }
 
+    /// The dots seen here that `other` has not seen, in no particular order; O(what is new + cloud).
+    pub fn unseen_by<'c>(&'c self, other: &'c Self) -> impl Iterator<Item = Dot> + 'c {
+        let prefixes = self.vector.iter().flat_map(move |&(replica, last)| {
+            let known = other.prefix(replica);
+            (known.saturating_add(1)..=last).map(move |sequence| Dot::new(replica, sequence))
+        });
+        prefixes.chain(self.cloud.iter().copied()).filter(move |&dot| !other.contains(dot))
+    }
+
     /// Every dot as maximal runs `(replica, first, last)`, in order. `[spec: CTX-4]`
     pub fn runs(&self) -> impl Iterator<Item = Run> + '_ {
         let replicas: BTreeSet<ReplicaId> =
-            self.vector.keys().copied().chain(self.cloud.iter().map(|dot| dot.replica)).collect();
+            self.vector.iter().map(|entry| entry.0).chain(self.cloud.iter().map(|dot| dot.replica)).collect();
         replicas.into_iter().flat_map(move |replica| {
             let prefix = self.prefix(replica);
             let head = (prefix > 0).then_some(Run { replica, first: 1, last: prefix });
@@ -118,6 +136,9 @@ impl CausalContext {
 
     /// Moves cloud dots that have become contiguous into the vector.
     fn absorb(&mut self, replica: ReplicaId) {
+        if self.cloud.is_empty() {
+            return;
+        }
         let mut prefix = self.prefix(replica);
         while let Some(&dot) = self.cloud.range(Dot::new(replica, 0)..=Dot::new(replica, u64::MAX)).next() {
             match prefix.checked_add(1) {
@@ -127,7 +148,7 @@ impl CausalContext {
             }
             self.cloud.remove(&dot);
         }
-        self.vector.insert(replica, prefix);
+        self.set_prefix(replica, prefix);
     }
 }
 

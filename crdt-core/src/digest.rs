@@ -80,19 +80,8 @@ pub fn delta_for(state: &State, theirs: &Digest) -> Delta {
             delta.insert(dot, record.clone());
         }
     }
-    let mut missed = CausalContext::new();
-    for run in state.context().runs() {
-        insert_missed(&mut missed, run, &theirs.context);
-    }
-    let removed = theirs.live.iter().flat_map(|run| run.dots()).filter(|&dot| state.is_dead(dot));
-    missed.extend(removed);
+    let mut missed: CausalContext = state.context().unseen_by(&theirs.context).collect();
+    missed.extend(theirs.live.iter().flat_map(|run| run.dots()).filter(|&dot| state.is_dead(dot)));
     delta.observe(&missed);
     delta
-}
-
-/// Adds the part of `run` that `theirs` has not seen.
-fn insert_missed(missed: &mut CausalContext, run: Run, theirs: &CausalContext) {
-    let first = run.first.max(theirs.prefix(run.replica).saturating_add(1));
-    let unseen = Run { first, ..run };
-    missed.extend(unseen.dots().filter(|&dot| !theirs.contains(dot)));
 }

@@ -3,12 +3,13 @@
 //!
 //! They judge a finished [`View`] by its public face alone and share no code with what built it.
 
+use crate::dictionary::Dictionary;
 use crate::dot::{Dot, EdgeId, VertexId};
 use crate::record::{Edge, EdgeKey, Name, Record};
 use crate::state::State;
 use crate::value::ValueType;
 use crate::view::{Placement, Repair, View};
-use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::vec;
 use alloc::vec::Vec;
 
 /// How a view breaks an invariant. Every variant names its clause.
@@ -112,45 +113,51 @@ pub fn check_view(view: &View<'_>) -> Result<(), Violation> {
 /// I1: every vertex has a path to the root, over shown edges and the links that the repairs report,
 /// whatever their direction. `[spec: INV-1]`
 pub fn check_paths(view: &View<'_>) -> Result<(), Violation> {
-    let mut neighbours: BTreeMap<VertexId, Vec<VertexId>> = BTreeMap::new();
     let edges = view.edges().iter().map(|shown| (shown.edge.from, shown.edge.to));
     let links = view.repairs().iter().filter_map(|repair| match repair {
         Repair::Detached { vertex } | Repair::Reattached { vertex } => Some((VertexId::ROOT, *vertex)),
         _ => None,
     });
-    for (from, to) in edges.chain(links) {
-        neighbours.entry(from).or_default().push(to);
-        neighbours.entry(to).or_default().push(from);
-    }
-    let mut reached = BTreeSet::from([VertexId::ROOT]);
-    let mut frontier = Vec::from([VertexId::ROOT]);
-    while let Some(vertex) = frontier.pop() {
-        let next = neighbours.get(&vertex).into_iter().flatten();
-        frontier.extend(next.filter(|&&vertex| reached.insert(vertex)));
-    }
-    match view.vertices().iter().find(|vertex| !reached.contains(vertex)) {
-        Some(&vertex) => Err(Violation::NoPath { vertex }),
+    match first_unreached(view.vertices(), edges.chain(links)) {
+        Some(vertex) => Err(Violation::NoPath { vertex }),
         None => Ok(()),
     }
 }
 
+/// The first of `vertices` (ascending, the root first) that no path of `edges` joins to the root.
+fn first_unreached(
+    vertices: &[VertexId],
+    edges: impl Iterator<Item = (VertexId, VertexId)>,
+) -> Option<VertexId> {
+    let mut neighbours: Vec<(VertexId, VertexId)> = edges.flat_map(|(from, to)| [(from, to), (to, from)]).collect();
+    neighbours.sort_unstable();
+    let mut reached = vec![false; vertices.len()];
+    let mut frontier = vec![VertexId::ROOT];
+    while let Some(vertex) = frontier.pop() {
+        let Ok(at) = vertices.binary_search(&vertex) else { continue };
+        if !core::mem::replace(&mut reached[at], true) {
+            let first = neighbours.partition_point(|&(from, _)| from < vertex);
+            let own = neighbours[first..].iter().take_while(|&&(from, _)| from == vertex);
+            frontier.extend(own.map(|&(_, to)| to));
+        }
+    }
+    vertices.iter().zip(reached).find(|(_, reached)| !reached).map(|(&vertex, _)| vertex)
+}
+
 /// I2: every shown edge and write belongs to elements of the graph. `[spec: INV-2]`
 pub fn check_no_dangling(view: &View<'_>) -> Result<(), Violation> {
-    let present: BTreeSet<VertexId> = view.vertices().iter().copied().collect();
+    let present = |vertex: VertexId| vertex.is_root() || view.state().vertex(vertex.0).is_some();
     for shown in view.edges() {
         for vertex in [shown.edge.from, shown.edge.to] {
-            if !present.contains(&vertex) {
+            if !present(vertex) || !view.has_vertex(vertex) {
                 return Err(Violation::Dangling { edge: shown.id, vertex });
             }
         }
     }
     for &(write, record) in view.writes() {
         let target = record.target;
-        let on_edge = || {
-            let edge = view.state().edge(target);
-            edge.is_some_and(|edge| present.contains(&edge.from) && present.contains(&edge.to))
-        };
-        if !present.contains(&VertexId(target)) && !on_edge() {
+        let on_edge = || view.state().edge(target).is_some_and(|edge| present(edge.from) && present(edge.to));
+        if !present(VertexId(target)) && !on_edge() {
             return Err(Violation::DanglingWrite { write, target });
         }
     }
@@ -160,41 +167,56 @@ pub fn check_no_dangling(view: &View<'_>) -> Result<(), Violation> {
 /// I3: the shown `RT` edges and the reported detachments form one tree rooted at the root, with unique
 /// parents and no cycle. `[spec: INV-3]`
 pub fn check_tree(view: &View<'_>) -> Result<(), Violation> {
-    let mut parents: BTreeMap<VertexId, (VertexId, EdgeId)> = BTreeMap::new();
-    let mut in_tree = BTreeSet::from([VertexId::ROOT]);
-    for shown in view.edges().iter().filter(|shown| shown.edge.is_rt()) {
-        let Edge { from, to, .. } = *shown.edge;
-        if let Some((_, first)) = parents.insert(to, (from, shown.id)) {
-            return Err(Violation::TwoParents { child: to, first, second: shown.id });
-        }
-        in_tree.extend([from, to]);
-    }
-    let detached: BTreeSet<VertexId> = view
-        .repairs()
-        .iter()
-        .filter_map(|repair| if let Repair::Detached { vertex } = repair { Some(*vertex) } else { None })
-        .collect();
+    let parents = unique_parents(view)?;
+    let is_detached =
+        |vertex| view.repairs().iter().any(|repair| matches!(repair, Repair::Detached { vertex: v } if *v == vertex));
     for &vertex in view.vertices() {
-        let expected = match parents.get(&vertex) {
+        let expected = match parent_in(&parents, vertex) {
             _ if vertex.is_root() => Placement::Root,
-            Some(&(parent, edge)) => Placement::Child { parent, edge },
-            None if detached.contains(&vertex) => Placement::Detached,
+            Some((parent, edge)) => Placement::Child { parent, edge },
+            None if is_detached(vertex) => Placement::Detached,
             None => Placement::Outside,
         };
         if view.placement(vertex) != Some(expected) {
             return Err(Violation::Misplaced { vertex });
         }
     }
-    for &start in &in_tree {
-        // A way up that is longer than there are vertices has met one twice.
-        let top = core::iter::successors(Some(start), |at| parents.get(at).map(|&(parent, _)| parent))
-            .take(view.vertices().len() + 1)
-            .last();
-        if !top.is_some_and(|top| !parents.contains_key(&top) && (top.is_root() || detached.contains(&top))) {
+    for &(start, ..) in &parents {
+        let top = top_of(start, parents.len(), |at| parent_in(&parents, at).map(|(parent, _)| parent));
+        if !top.is_some_and(|top| top.is_root() || is_detached(top)) {
             return Err(Violation::NotRooted { vertex: start });
         }
     }
     Ok(())
+}
+
+/// Child, parent and edge of each shown `RT` edge, by child.
+fn unique_parents(view: &View<'_>) -> Result<Vec<(VertexId, VertexId, EdgeId)>, Violation> {
+    let kinematic = view.edges().iter().filter(|shown| shown.edge.is_rt());
+    let mut parents: Vec<_> = kinematic.map(|shown| (shown.edge.to, shown.edge.from, shown.id)).collect();
+    parents.sort_unstable();
+    match parents.windows(2).find(|pair| pair[0].0 == pair[1].0) {
+        Some(pair) => Err(Violation::TwoParents { child: pair[0].0, first: pair[0].2, second: pair[1].2 }),
+        None => Ok(parents),
+    }
+}
+
+fn parent_in(parents: &[(VertexId, VertexId, EdgeId)], child: VertexId) -> Option<(VertexId, EdgeId)> {
+    let at = parents.binary_search_by_key(&child, |entry| entry.0).ok()?;
+    Some((parents[at].1, parents[at].2))
+}
+
+/// The end of the way up from `start`; `None` if it is longer than `edges`, that is, if it meets a vertex
+/// twice.
+fn top_of(start: VertexId, edges: usize, parent: impl Fn(VertexId) -> Option<VertexId>) -> Option<VertexId> {
+    let mut at = start;
+    for _ in 0..=edges {
+        match parent(at) {
+            Some(next) => at = next,
+            None => return Some(at),
+        }
+    }
+    None
 }
 
 /// I4: no edge joins a vertex to itself. `[spec: INV-4]`
@@ -218,15 +240,20 @@ pub fn check_attributes(view: &View<'_>) -> Result<(), Violation> {
 
 /// One edge per key, and one per functional label of a source. `[spec: INV-6]`
 pub fn check_registers(view: &View<'_>) -> Result<(), Violation> {
-    let mut seen: BTreeMap<(VertexId, &Name, Option<VertexId>), EdgeId> = BTreeMap::new();
-    for shown in view.edges() {
-        let Edge { from, to, label, .. } = shown.edge;
-        let target = (!view.dictionary().is_functional(label)).then_some(*to);
-        if let Some(first) = seen.insert((*from, label, target), shown.id) {
-            return Err(Violation::TwoShown { key: shown.edge.key(), first, second: shown.id });
+    let mut shown: Vec<_> = view.edges().iter().map(|shown| (register_of(shown.edge, view.dictionary()), shown)).collect();
+    shown.sort_unstable_by(|l, r| l.0.cmp(&r.0));
+    match shown.windows(2).find(|pair| pair[0].0 == pair[1].0) {
+        Some(pair) => {
+            let (first, second) = (pair[0].1, pair[1].1);
+            Err(Violation::TwoShown { key: first.edge.key(), first: first.id, second: second.id })
         }
+        None => Ok(()),
     }
-    Ok(())
+}
+
+/// What a symbolic edge competes on: its source, label and, unless that is functional, target.
+fn register_of<'e>(edge: &'e Edge, dictionary: &Dictionary) -> (VertexId, &'e str, Option<VertexId>) {
+    (edge.from, &edge.label, (!dictionary.is_functional(&edge.label)).then_some(edge.to))
 }
 
 /// V2: repairs are reported exactly where the live claims, taken as they are, break something.
@@ -241,64 +268,43 @@ pub fn check_repairs(view: &View<'_>) -> Result<(), Violation> {
 
 /// What the live claims break when nothing is repaired, judged from the records alone.
 fn broken_claim(view: &View<'_>) -> Option<&'static str> {
-    let state = view.state();
+    let (state, dictionary) = (view.state(), view.dictionary());
     let lives = |vertex: VertexId| vertex.is_root() || state.vertex(vertex.0).is_some();
-    let edges: Vec<&Edge> = state
-        .records()
-        .filter_map(|(_, record)| if let Record::Edge(edge) = record { Some(edge) } else { None })
-        .filter(|edge| edge.from != edge.to && lives(edge.from) && lives(edge.to))
-        .collect();
-    let (kinematic, symbolic): (Vec<&Edge>, Vec<&Edge>) = edges.iter().partition(|edge| edge.is_rt());
-    let mut registers = BTreeSet::new();
-    for edge in &symbolic {
-        let target = (!view.dictionary().is_functional(&edge.label)).then_some(edge.to);
-        if !registers.insert((edge.from, &edge.label, target)) {
-            return Some("one edge per register");
-        }
+    let joins = |edge: &&Edge| edge.from != edge.to && lives(edge.from) && lives(edge.to);
+    let edges: Vec<&Edge> = state.records().filter_map(|(dot, _)| state.edge(dot)).filter(joins).collect();
+    let symbolic = edges.iter().filter(|edge| !edge.is_rt());
+    if has_twins(symbolic.map(|edge| register_of(edge, dictionary)).collect()) {
+        return Some("one edge per register");
     }
-    let mut parents = BTreeMap::new();
-    for edge in kinematic.iter().filter(|edge| !edge.to.is_root()) {
-        if parents.insert(edge.to, edge.from).is_some() {
-            return Some("one kinematic parent");
-        }
+    let mut parents: Vec<(VertexId, VertexId)> = Vec::new();
+    parents.extend(edges.iter().filter(|edge| edge.is_rt() && !edge.to.is_root()).map(|edge| (edge.to, edge.from)));
+    if has_twins(parents.iter().map(|&(child, _)| child).collect()) {
+        return Some("one kinematic parent");
     }
-    for start in parents.keys() {
-        let top = core::iter::successors(Some(*start), |at| parents.get(at).copied()).take(parents.len() + 2).last();
-        if top != Some(VertexId::ROOT) {
-            return Some("one kinematic tree");
-        }
+    parents.sort_unstable();
+    let parent = |child| parents.binary_search_by_key(&child, |entry| entry.0).ok().map(|at| parents[at].1);
+    if parents.iter().any(|&(child, _)| top_of(child, parents.len(), parent) != Some(VertexId::ROOT)) {
+        return Some("one kinematic tree");
     }
-    if unreached(state, &edges) {
+    let held = state.records().filter(|(_, record)| matches!(record, Record::Vertex(_)));
+    let vertices: Vec<VertexId> = core::iter::once(VertexId::ROOT).chain(held.map(|(dot, _)| VertexId(dot))).collect();
+    if first_unreached(&vertices, edges.iter().map(|edge| (edge.from, edge.to))).is_some() {
         return Some("a path to the root");
     }
-    let mut names = BTreeSet::new();
-    let mut vertices = state.records().filter_map(|(dot, _)| state.vertex(dot));
-    if !vertices.all(|vertex| names.insert(&vertex.name)) {
+    if has_twins(vertices.iter().filter_map(|&vertex| state.vertex(vertex.0)).map(|vertex| &vertex.name).collect()) {
         return Some("one vertex per name");
     }
     let undeclared = state.records().filter_map(|(dot, _)| state.write(dot)).any(|write| {
-        let on_edge = state.edge(write.target).is_some_and(|edge| lives(edge.from) && lives(edge.to));
-        (lives(VertexId(write.target)) || on_edge)
-            && !view.dictionary().allows_attribute(&write.name, write.value.value_type())
+        let on_edge = || state.edge(write.target).is_some_and(|edge| joins(&edge));
+        !dictionary.allows_attribute(&write.name, write.value.value_type())
+            && (lives(VertexId(write.target)) || on_edge())
     });
     undeclared.then_some("declared attributes")
 }
 
-/// Whether some vertex has no path of live edges to the root.
-fn unreached(state: &State, edges: &[&Edge]) -> bool {
-    let mut reached = BTreeSet::from([VertexId::ROOT]);
-    loop {
-        let before = reached.len();
-        for edge in edges {
-            if reached.contains(&edge.from) || reached.contains(&edge.to) {
-                reached.extend([edge.from, edge.to]);
-            }
-        }
-        if reached.len() == before {
-            break;
-        }
-    }
-    state.records().any(|(dot, _)| state.vertex(dot).is_some() && !reached.contains(&VertexId(dot)))
+fn has_twins<T: Ord>(mut items: Vec<T>) -> bool {
+    items.sort_unstable();
+    items.windows(2).any(|pair| pair[0] == pair[1])
 }
 
 /// Every record is live or pending, never dead: nothing is kept of what was removed. `[spec: STATE-6]`

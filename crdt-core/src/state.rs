@@ -160,30 +160,30 @@ impl State {
                 }
             }
         }
-        disturbed |= other.context.runs().any(|run| {
-            // A dot that arrives dead can be the anchor of a record that waits here.
-            run.dots().any(|dot| !self.context.contains(dot) && !other.holds(dot))
-        });
+        // A dot that arrives dead can be the anchor of a record that waits here.
+        disturbed |= other.context.unseen_by(&self.context).any(|dot| !other.holds(dot));
         self.context.join(&other.context);
         disturbed
     }
 
-    /// Drops the records held here that `other` has seen and does not hold; whether there were any.
-    /// Visits only dots that `other` has seen.
+    /// Drops the records held here that `other` has seen and does not hold; whether one of them can have
+    /// been an anchor. Visits only dots that `other` has seen.
     fn drop_dead_in(&mut self, other: &Self) -> bool {
-        let mut dead = Vec::new();
-        for (replica, last) in other.context.vector() {
-            let seen = self.store.range(Dot::new(replica, 1)..=Dot::new(replica, last));
-            dead.extend(seen.map(|(&dot, _)| dot).filter(|&dot| !other.holds(dot)));
+        let seen = other.context.vector().flat_map(|(replica, last)| {
+            self.store.range(Dot::new(replica, 1)..=Dot::new(replica, last)).map(|(&dot, _)| dot)
+        });
+        let beyond = other.context.cloud().filter(|&dot| self.holds(dot));
+        let dead: Vec<Dot> = seen.chain(beyond).filter(|&dot| !other.holds(dot)).collect();
+        let mut anchor_died = false;
+        for dot in dead {
+            let dropped = self.store.remove(&dot);
+            anchor_died |= dropped.is_some_and(|record| !matches!(*record, Record::Write(_)));
         }
-        dead.extend(other.context.cloud().filter(|&dot| self.holds(dot) && !other.holds(dot)));
-        for dot in &dead {
-            self.store.remove(dot);
-        }
-        !dead.is_empty()
+        anchor_died
     }
 
-    /// Drops every record anchored to a dead dot, until none is left. `[spec: CLOSE-1]`
+    /// Drops every record anchored to a dead dot, until none is left: a closure operator.
+    /// `[spec: CLOSE-1]` `[spec: CLOSE-2]`
     ///
     /// Reaches its fixed point in two passes: a vertex takes its edges, an edge its writes
     /// (`[spec: CLOSE-3]`). What is anchored to a dot not yet *seen* stays, pending (`[spec: CLOSE-4]`).
@@ -210,7 +210,7 @@ impl State {
     }
 
     /// A dot that this state and `other` hold with different records: a replica used it twice, against
-    /// `[spec: ID-3]`. What arrives from outside can be tested before it is joined.
+    /// `[spec: ID-3]`. What arrives from outside can be tested before it is joined. `[spec: CRASH-3]`
     pub fn reused_dot(&self, other: &Self) -> Option<Dot> {
         let (small, large) = if self.len() <= other.len() { (self, other) } else { (other, self) };
         small.store.iter().find(|(dot, record)| large.store.get(dot).is_some_and(|r| r != *record)).map(|(&dot, _)| dot)

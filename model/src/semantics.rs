@@ -39,7 +39,7 @@ pub trait Semantics: Send + Sync {
     fn join_states(&self, left: &Self::State, right: &Self::State) -> Option<Self::State>;
 
     /// Judges one state by itself: every clause that must always hold of it.
-    fn judge(&self, state: &Self::State) -> Result<Witnesses, Breach>;
+    fn judge(&self, state: &Self::State) -> Result<Judged, Breach>;
 
     /// Judges a local step: what must hold between a state, a mutation and the state after it.
     fn judge_step(
@@ -80,6 +80,15 @@ pub trait Semantics: Send + Sync {
 
     /// A state as JSON, for traces.
     fn state_json(&self, state: &Self::State) -> serde_json::Value;
+}
+
+/// What judging a sound state brings to light.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Judged {
+    /// What was seen in it.
+    pub witnesses: Witnesses,
+    /// See [`Semantics::is_order_sensitive`].
+    pub order_sensitive: bool,
 }
 
 /// What a mutation broadcasts and leaves behind.

@@ -1,7 +1,7 @@
 //! Interned states and deltas, and memoised joins: so that the production core runs inside the search at
 //! the speed of integers. Replica states recur far more often than histories do.
 
-use crate::semantics::{Breach, Semantics, Step, Witnesses};
+use crate::semantics::{Breach, Judged, Semantics, Step, Witnesses};
 use rustc_hash::FxHashMap;
 use std::hash::Hash;
 use std::sync::Arc;
@@ -194,11 +194,11 @@ impl<S: Semantics> Tables<S> {
     }
 
     /// Judges a state and collects what it bears witness of.
-    pub fn judge(&mut self, semantics: &S, state: &S::State) -> Result<(), Breach> {
+    pub fn judge(&mut self, semantics: &S, state: &S::State) -> Result<Judged, Breach> {
         self.judged += 1;
-        let seen = semantics.judge(state)?;
-        self.witnesses.insert(seen);
-        Ok(())
+        let judged = semantics.judge(state)?;
+        self.witnesses.insert(judged.witnesses);
+        Ok(judged)
     }
 }
 

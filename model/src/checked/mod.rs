@@ -4,7 +4,7 @@ pub mod alphabet;
 mod intent;
 mod renaming;
 
-use crate::semantics::{Breach, Semantics, Step, Witnesses};
+use crate::semantics::{Breach, Judged, Semantics, Step, Witnesses};
 use alphabet::Alphabet;
 use dsr_core::invariant::{Violation, check_repairs, check_view};
 use dsr_core::{
@@ -136,6 +136,12 @@ fn has_concurrent_writes(view: &View<'_>) -> bool {
     view.writes().windows(2).any(|pair| pair[0].1.target == pair[1].1.target && pair[0].1.name == pair[1].1.name)
 }
 
+/// A view without repairs and without two live writes of one attribute does not depend on the order of
+/// dots. `[spec: VIEW-11]`
+fn is_order_sensitive(view: &View<'_>) -> bool {
+    !view.repairs().is_empty() || has_concurrent_writes(view)
+}
+
 impl Semantics for Checked {
     type State = State;
     type Delta = Delta;
@@ -172,10 +178,10 @@ impl Semantics for Checked {
         Some(left.joined(right))
     }
 
-    fn judge(&self, state: &State) -> Result<Witnesses, Breach> {
+    fn judge(&self, state: &State) -> Result<Judged, Breach> {
         let view = view(state, &self.dictionary);
         judge_view(&view)?;
-        Ok(witnesses_of(&view))
+        Ok(Judged { witnesses: witnesses_of(&view), order_sensitive: is_order_sensitive(&view) })
     }
 
     fn judge_step(&self, before: &State, _replica: usize, mutation: &Act, step: &Step<Self>) -> Result<(), Breach> {
@@ -201,8 +207,7 @@ impl Semantics for Checked {
     }
 
     fn is_order_sensitive(&self, state: &State) -> bool {
-        let view = view(state, &self.dictionary);
-        !view.repairs().is_empty() || has_concurrent_writes(&view)
+        is_order_sensitive(&view(state, &self.dictionary))
     }
 
     fn rename_state(&self, state: &State, to: &[usize]) -> State {

@@ -147,8 +147,8 @@ impl<S: Semantics> Histories<'_, S> {
 
     /// Judges a state, and its images where they are not judged by symmetry.
     fn judge_fresh(&mut self, state: &S::State, images: bool) -> Result<(), Breach> {
-        self.tables.judge(self.semantics, state)?;
-        if images && self.permutations.len() > 1 && self.semantics.is_order_sensitive(state) {
+        let judged = self.tables.judge(self.semantics, state)?;
+        if images && judged.order_sensitive {
             for permutation in 1..self.permutations.len() {
                 let image = self.semantics.rename_state(state, self.permutations.get(permutation));
                 self.tables.judge(self.semantics, &image)?;
