@@ -16,3 +16,7 @@ pub const CLOUD_DOTS_MAX: usize = 1 << 20;
 pub const RECORDS_MAX: usize = 1 << 24;
 /// The largest encoded state, in bytes. `[spec: LIMIT-9]`
 pub const ENCODED_BYTES_MAX: usize = 1 << 30;
+/// The largest scene file, in bytes. `[spec: SCENE-2]`
+pub const SCENE_BYTES_MAX: usize = 64 << 20;
+/// The deepest nesting of lists and objects in a scene file; the format needs 9. `[spec: SCENE-2]`
+pub const SCENE_DEPTH_MAX: usize = 32;
