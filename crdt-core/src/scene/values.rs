@@ -44,7 +44,7 @@ pub(super) fn read(value_type: ValueType, node: &Node<'_>) -> Read<Value> {
         ValueType::Double => Value::Double(float(node, "a 64-bit float")?),
         ValueType::FloatVec => Value::FloatVec(floats(node)?.into()),
         ValueType::ByteVec => {
-            Value::ByteVec(items(node, |item| integer::<u8>(item, "a byte, 0 to 255"))?.into())
+            Value::ByteVec(items(node, |item| integer::<u8>(item, "a byte (0 to 255)"))?.into())
         }
         ValueType::U64Vec => Value::U64Vec(items(node, unsigned_64)?.into()),
         ValueType::Vec2 => Value::Vec2(fixed(value_type, node)?),
