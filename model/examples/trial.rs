@@ -4,6 +4,8 @@ use dsr_model::checked::{Checked, alphabet::Alphabet};
 use dsr_model::histories::*;
 use stateright::{Checker, Model};
 use std::time::Instant;
+#[global_allocator]
+static A: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 fn apply(state: &mut State, dictionary: &Dictionary, m: Mutation) -> VertexId {
     let dot = state.next_dot(ReplicaId::SCENE).unwrap();

@@ -67,8 +67,9 @@ impl Alphabet {
     }
 
     fn update_attributes(&self, view: &View<'_>, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
-        let vertices = focus.iter().map(|&vertex| ElementId::Vertex(vertex));
-        let edges = self.edges_in_focus(view).map(|shown| ElementId::Edge(shown.id));
+        let vertices = focus.iter().filter(|vertex| !vertex.is_root()).map(|&vertex| ElementId::Vertex(vertex));
+        let symbolic = self.edges_in_focus(view).filter(|shown| !shown.edge.is_rt());
+        let edges = symbolic.map(|shown| ElementId::Edge(shown.id));
         for target in vertices.chain(edges) {
             let update = |value| Mutation::UpdateAttributes { target, updates: [(ATTRIBUTE.into(), value)].into() };
             mutations.push(update(Some(Value::Int(1))));
@@ -106,25 +107,28 @@ impl Alphabet {
     }
 }
 
-/// Below each vertex of the tree, and *in* each vertex; one more with a shared name below the root.
+/// Below each vertex of the tree, and *in* each vertex but the root; one more with a shared name below the
+/// root.
 fn add_vertex(view: &View<'_>, replica: usize, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
     let Some(dot) = view.state().next_dot(replica_id(replica)) else { return };
     let vertex = NewVertex::new(NEW_TYPE, &fresh_name(dot));
     for &other in focus {
-        let links = [VertexLink::child_of(other), VertexLink::to(FUNCTIONAL, other)];
+        let inside = (!other.is_root()).then(|| VertexLink::to(FUNCTIONAL, other));
+        let links = core::iter::once(VertexLink::child_of(other)).chain(inside);
         mutations.extend(links.map(|link| Mutation::AddVertex { vertex: vertex.clone(), link }));
     }
     let twin = NewVertex::new(NEW_TYPE, SHARED_NAME);
     mutations.push(Mutation::AddVertex { vertex: twin, link: VertexLink::child_of(VertexId::ROOT) });
 }
 
-/// A functional and a plain symbolic edge between each two vertices; a kinematic one to each vertex that
-/// has no parent.
+/// A functional and a plain symbolic edge between each two vertices besides the root; a kinematic one to
+/// each vertex that has no parent.
 fn add_edge(view: &View<'_>, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
     for &from in focus {
         for &to in focus.iter().filter(|&&to| to != from) {
             let orphan = matches!(view.placement(to), Some(Placement::Outside | Placement::Detached));
-            let labels = [(FUNCTIONAL, !from.is_root()), (PLAIN, true), (RT, orphan)];
+            let symbolic = !from.is_root() && !to.is_root();
+            let labels = [(FUNCTIONAL, symbolic), (PLAIN, symbolic), (RT, orphan)];
             let labels = labels.into_iter().filter(|(_, wanted)| *wanted);
             mutations.extend(labels.map(|(label, _)| Mutation::AddEdge {
                 key: EdgeKey::new(from, label, to),

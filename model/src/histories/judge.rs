@@ -1,8 +1,9 @@
 //! Judgement: every delivered subset of a history's deltas, and every diamond in it. `[spec: CHECK-4]`
 //!
 //! The state of a set is computed by every last delivery: from each set with one delta less. If all agree,
-//! on all sets, then every order of delivery agrees (each order is a path through these sets), and
-//! delivering twice what is there changes nothing. A set that is part of many histories is judged once.
+//! on all sets, then every order of delivery agrees (each order is a path through these sets). In sets of at
+//! most `replay_max` deltas, every delta is delivered once more and every part resynchronised with the whole.
+//! A set that is part of many histories is judged once.
 
 use super::symmetry::{DeltaSet, delta_set};
 use super::{Histories, History};
@@ -100,8 +101,10 @@ impl<S: Semantics> Histories<'_, S> {
         let id = self.tables.intern(state);
         self.judge.delivered += 1;
         self.judge_state(id, images).map_err(|breach| Fault::new(breach, set, None))?;
-        self.judge_again(id, set)?;
-        self.judge_repair(id, set, images)?;
+        if set.len() <= self.replay_max {
+            self.judge_again(id, set)?;
+            self.judge_repair(id, set, images)?;
+        }
         self.judge.sets.insert(key, id);
         Ok(id)
     }

@@ -25,6 +25,10 @@ pub const REPLICAS_MAX: usize = 4;
 /// The most mutations of one replica.
 pub const MUTATIONS_MAX: usize = 4;
 
+/// Duplicates and resynchronisation are judged in every set of at most this many deltas: the digest's own
+/// counterexample needs three, which the runs with three deltas and L2 reach.
+const REPLAY_MAX: usize = 2;
+
 /// How far a run goes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Bound {
@@ -83,6 +87,8 @@ pub struct Histories<'s, S: Semantics> {
     permutations: Permutations,
     tables: Tables<S>,
     judge: Judge,
+    /// The largest sets in which deltas are delivered twice and parts resynchronised.
+    replay_max: usize,
     /// Which pairs of kinds were concurrent, by `kind * kinds + kind`.
     concurrent: u64,
     kinds: usize,
@@ -101,6 +107,7 @@ impl<'s, S: Semantics> Histories<'s, S> {
             permutations: Permutations::of(if symmetry { bound.replicas } else { 1 }),
             tables,
             judge: Judge::default(),
+            replay_max: REPLAY_MAX,
             concurrent: 0,
             kinds: semantics.kinds().len(),
             initial,
