@@ -80,7 +80,54 @@ pub trait Semantics: Send + Sync {
 
     /// A state as JSON, for traces.
     fn state_json(&self, state: &Self::State) -> serde_json::Value;
+
+    /// A delta as JSON, for traces.
+    fn delta_json(&self, delta: &Self::Delta) -> serde_json::Value;
+
+    /// The clauses that [`judge`](Self::judge), [`judge_step`](Self::judge_step) and
+    /// [`judge_delivery`](Self::judge_delivery) judge, and those that the layers themselves do.
+    fn clauses(&self) -> Vec<Clause> {
+        CLAUSES.to_vec()
+    }
 }
+
+/// A clause that is judged.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Clause {
+    /// Its id.
+    pub id: &'static str,
+    /// The claim that it belongs to.
+    pub claim: &'static str,
+    /// In words.
+    pub what: &'static str,
+}
+
+const fn clause(id: &'static str, claim: &'static str, what: &'static str) -> Clause {
+    Clause { id, claim, what }
+}
+
+/// What every semantics must keep.
+const CLAUSES: [Clause; 19] = [
+    clause("JOIN-3", "L3", "the same deltas in any order, once or twice, lead to the same state"),
+    clause("JOIN-4", "L2", "deliveries and mutations only add to what was seen"),
+    clause("MUT-0", "L2", "a mutation's state is the old one joined with its delta"),
+    clause("ID-3", "L3", "no dot is used twice"),
+    clause("STAMP-1", "V3", "a new claim outranks all that its author held"),
+    clause("SYNC-3", "L3", "resynchronisation by digest leads to the join of both"),
+    clause("STATE-3", "R1", "what is removed stays removed"),
+    clause("STATE-6", "S1", "only live and pending records are held"),
+    clause("INV-1", "V1", "every vertex has a path to the root"),
+    clause("INV-2", "V1", "no edge and no attribute dangles"),
+    clause("INV-3", "V1", "the RT edges form one tree rooted at the root"),
+    clause("INV-4", "V1", "no edge joins a vertex to itself"),
+    clause("INV-5", "V1", "shown attributes are declared and typed"),
+    clause("INV-6", "V1", "one edge per key and per functional label"),
+    clause("VIEW-9", "V1", "what is broken is repaired and reported"),
+    clause("VIEW-10", "V2", "what is not broken is shown as it is"),
+    clause("INTENT-1", "V3", "a mutation shows its effect to its author"),
+    clause("INTENT-2", "V3", "a claim is hidden only by greater ones"),
+    clause("MUT-4.2", "V2", "no mutation strands a vertex that its author sees"),
+];
 
 /// What judging a sound state brings to light.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]

@@ -145,7 +145,7 @@ impl<S: Semantics> Tables<S> {
         for (index, mutation) in semantics.mutations(&before, replica).into_iter().enumerate() {
             let Some(step) = semantics.mutate(&before, replica, &mutation) else { continue };
             if let Err(breach) = semantics.judge_step(&before, replica, &mutation, &step) {
-                return Err(StepFault { breach, mutation, step });
+                return Err(StepFault { breach, before: state, replica, mutation, step });
             }
             let kind = semantics.kind(&mutation);
             let delta = self.intern_delta(step.delta, 1 << kind);
@@ -207,6 +207,10 @@ impl<S: Semantics> Tables<S> {
 pub struct StepFault<S: Semantics> {
     /// The clause.
     pub breach: Breach,
+    /// The state before it.
+    pub before: StateId,
+    /// Who.
+    pub replica: usize,
     /// The mutation.
     pub mutation: S::Mutation,
     /// What it did.

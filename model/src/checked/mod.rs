@@ -223,10 +223,14 @@ impl Semantics for Checked {
     }
 
     fn mutation_json(&self, mutation: &Act) -> serde_json::Value {
-        { let _ = mutation; serde_json::Value::Null }
+        serde_json::to_value(&mutation.0).unwrap_or_default()
     }
 
     fn state_json(&self, state: &State) -> serde_json::Value {
-        { let _ = state; serde_json::Value::Null }
+        serde_json::to_value(state).unwrap_or_default()
+    }
+
+    fn delta_json(&self, delta: &Delta) -> serde_json::Value {
+        self.state_json(delta)
     }
 }

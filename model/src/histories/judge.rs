@@ -46,14 +46,22 @@ impl<S: Semantics> Histories<'_, S> {
     /// Judges every delivered subset of the history's deltas.
     pub fn judge(&mut self, history: &History) -> Result<(), Fault> {
         let pool: Vec<DeltaId> = history.pool().collect();
-        let images = !history.concrete;
+        self.judge_pool(&pool, !history.concrete)
+    }
+
+    /// Judges every subset of some deltas.
+    pub fn judge_set(&mut self, deltas: &[DeltaId]) -> Result<(), Fault> {
+        self.judge_pool(deltas, false)
+    }
+
+    fn judge_pool(&mut self, pool: &[DeltaId], images: bool) -> Result<(), Fault> {
         if pool.is_empty() {
             return self.judge_state(self.initial, images).map_err(|breach| Fault::new(breach, &[], None));
         }
-        let (first, _) = self.join_all(&pool, images)?;
+        let (first, _) = self.join_all(pool, images)?;
         self.judge.delivered += 1;
         let breach = self.judge_fresh(&first, images);
-        breach.map_err(|breach| Fault::new(breach, &pool, None))
+        breach.map_err(|breach| Fault::new(breach, pool, None))
     }
 
     /// The state of a set, the same by every last delivery.

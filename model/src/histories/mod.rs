@@ -13,7 +13,7 @@ mod model;
 mod symmetry;
 
 pub use judge::Fault;
-pub use model::HistoryModel;
+pub use model::{FoundFault, HistoryModel};
 pub use symmetry::Permutations;
 
 use crate::semantics::Semantics;
@@ -121,6 +121,26 @@ impl<'s, S: Semantics> Histories<'s, S> {
             last[..self.bound.replicas].fill(self.initial);
         }
         History { deltas: [[NONE; MUTATIONS_MAX]; REPLICAS_MAX], last, concrete: self.permutations.len() == 1 }
+    }
+
+    /// The state that every replica starts from.
+    pub fn initial(&self) -> StateId {
+        self.initial
+    }
+
+    /// The state after a delivery.
+    pub fn join(&mut self, state: StateId, delta: DeltaId) -> StateId {
+        self.tables.join(self.semantics, state, delta)
+    }
+
+    /// The number of a state from outside the search, for its trace.
+    pub(crate) fn intern(&mut self, state: S::State) -> StateId {
+        self.tables.intern(state)
+    }
+
+    /// The number of a delta from outside the search, for its trace.
+    pub(crate) fn intern_delta(&mut self, delta: S::Delta) -> DeltaId {
+        self.tables.intern_delta(delta, 0)
     }
 
     /// What was computed.
