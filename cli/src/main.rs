@@ -1,2 +1,45 @@
-//! The `dsr` command.
-fn main() {}
+//! The `dsr` command: checks, shows and converts Deep State Representation graphs.
+
+mod input;
+mod output;
+mod scene;
+mod status;
+
+use clap::{Parser, Subcommand};
+use status::Status;
+use std::process::ExitCode;
+
+/// Checks, shows and converts Deep State Representation graphs.
+#[derive(Parser, Debug)]
+#[command(name = "dsr", version, after_help = status::HELP, arg_required_else_help = true)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+// One line per subcommand, in the order of `--help`; each has its own module of that name.
+#[derive(Subcommand, Debug)]
+enum Command {
+    /// Checks, shows, converts and compares scenes: graph files of the published system
+    #[command(subcommand)]
+    Scene(scene::Command),
+}
+
+impl Command {
+    fn run(&self) -> Status {
+        match self {
+            Self::Scene(command) => command.run(),
+        }
+    }
+}
+
+fn main() -> ExitCode {
+    match Arguments::try_parse() {
+        Ok(arguments) => arguments.command.run().into(),
+        Err(error) => {
+            // Help and version go to standard output and are no errors. Nothing is left to say if this fails.
+            let _ = error.print();
+            if error.use_stderr() { Status::Usage.into() } else { Status::Claimed.into() }
+        }
+    }
+}

@@ -16,6 +16,8 @@ pub(super) struct Assembled {
     pub(super) state: State,
     /// Beside the graph's symbols.
     pub(super) vertices: Vec<VertexId>,
+    /// Which symbol a vertex comes from.
+    pub(super) symbols: BTreeMap<VertexId, usize>,
     /// Which symbol, and which of its links, an edge comes from.
     pub(super) links: BTreeMap<Dot, (usize, usize)>,
 }
@@ -55,7 +57,8 @@ pub(super) fn assemble(graph: &Graph) -> Assembled {
             maker.add_writes(dot, &link.attributes);
         }
     }
-    Assembled { state: maker.state, vertices, links }
+    let symbols = vertices.iter().enumerate().map(|(at, &vertex)| (vertex, at)).collect();
+    Assembled { state: maker.state, vertices, symbols, links }
 }
 
 struct Maker {

@@ -212,10 +212,12 @@ pub enum FaultKind {
         other: SymbolRef,
     },
     /// `RT` links form a cycle.
-    #[error("RT links form a cycle: {}", cycle_text(cycle))]
+    #[error("RT links form a cycle: {}", cycle_text(cycle, *is_whole))]
     Cycle {
-        /// Its symbols, from parent to child.
+        /// Its symbols, from parent to child; of a long one the first and the last 32.
         cycle: Vec<SymbolRef>,
+        /// Whether these are all.
+        is_whole: bool,
     },
     /// A symbol has `RT` children and no `RT` parent.
     #[error("the symbol has RT children but no RT parent, so its tree of {} RT links does not hang from the root: {}",
@@ -273,8 +275,11 @@ fn join(symbols: &[SymbolRef]) -> String {
     texts.join(", ")
 }
 
-fn cycle_text(cycle: &[SymbolRef]) -> String {
-    let texts: Vec<String> = cycle.iter().chain(cycle.first()).map(ToString::to_string).collect();
+fn cycle_text(cycle: &[SymbolRef], is_whole: bool) -> String {
+    let mut texts: Vec<String> = cycle.iter().chain(cycle.first()).map(ToString::to_string).collect();
+    if !is_whole {
+        texts.insert(1, "…".to_string());
+    }
     texts.join(" → ")
 }
 

@@ -77,7 +77,7 @@ struct Judge<'j> {
 
 impl<'j> Judge<'j> {
     fn symbol_of(&self, vertex: VertexId) -> Option<(usize, &'j Symbol)> {
-        let at = self.assembled.vertices.iter().position(|&known| known == vertex)?;
+        let &at = self.assembled.symbols.get(&vertex)?;
         self.graph.symbols.get(at).map(|symbol| (at, symbol))
     }
 
@@ -114,20 +114,23 @@ impl<'j> Judge<'j> {
                 };
                 (*hidden, kind)
             }
-            Repair::CycleBroken { hidden } => {
-                (*hidden, FaultKind::Cycle { cycle: self.cycle(self.edge(*hidden)?) })
-            }
+            Repair::CycleBroken { hidden } => (*hidden, self.cycle(self.edge(*hidden)?)),
             _ => return None,
         };
         let (link_at, symbol, link) = self.link_of(hidden.0)?;
         Some((fault_at(link.at, symbol.link_place(link), kind), link_at, self.edge(hidden)?.to))
     }
 
-    /// The cycle that this edge would close, from its child down to its parent.
-    fn cycle(&self, edge: &Edge) -> Vec<SymbolRef> {
-        let mut up: Vec<VertexId> = self.view.ancestors(edge.from).take_while(|&at| at != edge.to).collect();
-        up.push(edge.to);
-        up.into_iter().rev().map(|vertex| self.reference(vertex)).collect()
+    /// The cycle that this edge would close, from its child down to its parent; of a long one the last part.
+    fn cycle(&self, edge: &Edge) -> FaultKind {
+        const SHOWN_MAX: usize = 32;
+        let mut up = self.view.ancestors(edge.from).take_while(|&at| at != edge.to);
+        let mut cycle: Vec<SymbolRef> =
+            up.by_ref().take(SHOWN_MAX).map(|vertex| self.reference(vertex)).collect();
+        let is_whole = up.next().is_none();
+        cycle.push(self.reference(edge.to));
+        cycle.reverse();
+        FaultKind::Cycle { cycle, is_whole }
     }
 
     /// Symbols without a path to the root over any links of the file, hidden ones included.
