@@ -1,0 +1,299 @@
+//! The encodings: what is written is read back, what is read is what would be written, and nothing that
+//! anybody sends does harm.
+
+use dsr_core::{
+    CausalContext, DecodeError, Digest, Dot, ReplicaId, Run, State, check_well_formed, decode, decode_digest,
+    digest, encode, encode_digest, limits,
+};
+use dsr_testkit::{Anchors, state, states, universes};
+use proptest::prelude::*;
+
+const CHAPTER: &str = include_str!("../../spec/encoding.md");
+
+/// The text between the fence of a language and its end.
+fn fenced(language: &str) -> &'static str {
+    let start = CHAPTER.split_once(&format!("```{language}\n")).unwrap().1;
+    start.split_once("```").unwrap().0
+}
+
+fn example() -> State {
+    state(
+        "r1.1 vertex room kitchen @1
+         r1.2 edge root -RT-> r1.1 @1
+         r1.3 write r1.1 level=5 @1
+         dead r2.4",
+    )
+}
+
+/// `[spec: ENC-1]` to the byte: `[spec: ENC-2]` `[spec: ENC-3]` `[spec: ENC-4]` `[spec: ENC-5]`
+/// `[spec: ENC-6]` `[spec: ENC-7]` `[spec: ENC-8]`
+#[test]
+fn law_the_example_of_the_chapter_is_what_is_written() {
+    let bytes: Vec<u8> = fenced("bytes")
+        .lines()
+        .flat_map(|line| line.split("  ").next().unwrap().split(' '))
+        .map(|byte| u8::from_str_radix(byte, 16).unwrap())
+        .collect();
+    assert_eq!(encode(&example()), bytes);
+    assert_eq!(decode(&bytes), Ok(example()));
+}
+
+/// Checks both directions on a byte string: accepted bytes are canonical, refused ones are explained.
+fn check_bytes(bytes: &[u8], explain: bool) -> Result<bool, TestCaseError> {
+    let read = decode(bytes);
+    let digest = decode_digest(bytes);
+    match &read {
+        Ok(state) => {
+            prop_assert_eq!(encode(state), bytes);
+            prop_assert_eq!(check_well_formed(state), Ok(()));
+        }
+        Err(error) => prop_assert!(!explain || error.to_string().len() > 10),
+    }
+    if let Ok(digest) = &digest {
+        prop_assert_eq!(encode_digest(digest), bytes);
+    }
+    Ok(read.is_ok() || digest.is_ok())
+}
+
+/// All byte strings of up to three bytes, and all of up to two more after version and kind.
+/// `[spec: ENC-1]` `[spec: ENC-10]`
+#[test]
+fn law_every_short_byte_string_is_canonical_or_refused() {
+    let mut accepted = 0;
+    for (prefix, length_max) in [(&[][..], 3), (&[1, 0], 2), (&[1, 1], 2)] {
+        for length in 0..=length_max {
+            for code in 0..256_u32.pow(length) {
+                let bytes = [prefix, &code.to_le_bytes()[..length as usize]].concat();
+                accepted += usize::from(check_bytes(&bytes, false).unwrap());
+            }
+        }
+    }
+    println!("{accepted} accepted");
+    assert_eq!(accepted, 3, "the empty state once; the empty digest twice, as it has three bytes");
+}
+
+/// All strings of so many of the smallest bytes after version and kind: small numbers are what tables, runs
+/// and records are made of. `[spec: ENC-1]` `[spec: ENC-11]`
+#[test]
+fn law_every_string_of_small_bytes_is_canonical_or_refused() {
+    let mut accepted = [0, 0];
+    let scopes: [(u8, u32, u32); 6] = [(0, 8, 4), (0, 10, 3), (0, 15, 2), (0, 17, 2), (1, 9, 3), (1, 7, 5)];
+    for (kind, length, base) in scopes {
+        for code in 0..base.pow(length) {
+            let digits = std::iter::successors(Some(code), |rest| Some(rest / base));
+            let tail = digits.take(length as usize).map(|rest| u8::try_from(rest % base).unwrap());
+            let bytes: Vec<u8> = [1, kind].into_iter().chain(tail).collect();
+            accepted[usize::from(kind)] += usize::from(check_bytes(&bytes, false).unwrap());
+        }
+    }
+    println!("{accepted:?} accepted");
+    assert!(accepted.iter().all(|&count| count > 10), "{accepted:?}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    /// `[spec: ENC-1]` `[spec: ENC-7]` `[spec: ENC-8]` `[spec: ENC-11]`
+    #[test]
+    fn law_binary_round_trip(pair in states(2, 14, Anchors::Right)) {
+        for state in &pair {
+            let bytes = encode(state);
+            prop_assert_eq!(decode(&bytes), Ok(state.clone()));
+            let digest = digest(state);
+            prop_assert_eq!(decode_digest(&encode_digest(&digest)), Ok(digest));
+        }
+        prop_assert_eq!(pair[0] == pair[1], encode(&pair[0]) == encode(&pair[1]));
+    }
+
+    /// `[spec: ENC-10]`
+    #[test]
+    fn law_any_bytes_are_canonical_or_refused(bytes in proptest::collection::vec(any::<u8>(), 0..64)) {
+        check_bytes(&bytes, true)?;
+    }
+
+    /// One byte changed, one inserted, one removed, the end cut off, or something added: never two spellings.
+    /// `[spec: ENC-1]` `[spec: ENC-9]` `[spec: ENC-10]`
+    #[test]
+    fn law_mutated_bytes_are_canonical_or_refused(
+        state in states(1, 10, Anchors::Right),
+        as_digest in any::<bool>(),
+        edits in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..6_u8), 1..4),
+    ) {
+        let mut bytes = if as_digest { encode_digest(&digest(&state[0])) } else { encode(&state[0]) };
+        for (at, byte, how) in edits {
+            let at = at.index(bytes.len() + 1);
+            match how {
+                0 => bytes.insert(at, byte),
+                1 => bytes.truncate(at),
+                2 if at < bytes.len() => drop(bytes.remove(at)),
+                3 if at < bytes.len() => bytes[at] = bytes[at].wrapping_add(byte % 3),
+                _ if at < bytes.len() => bytes[at] = byte,
+                _ => bytes.push(byte),
+            }
+        }
+        check_bytes(&bytes, true)?;
+    }
+
+    /// What is not well-formed has bytes too, but nobody accepts them. `[spec: ENC-10]` `[spec: WF-3]`
+    #[test]
+    fn law_malformed_states_are_refused(universe in universes(8, Anchors::Any)) {
+        let state = State::assemble(universe.records.clone(), universe.records.keys().copied().collect());
+        let expected = check_well_formed(&state).map(|()| state.clone()).map_err(DecodeError::from);
+        prop_assert_eq!(decode(&encode(&state)), expected);
+        let unseen = State::assemble(universe.records, CausalContext::new());
+        prop_assert_eq!(decode(&encode(&unseen)).is_ok(), unseen.is_empty());
+    }
+}
+
+/// The error for the bytes of the example after an edit.
+#[track_caller]
+fn check_refused(edit: impl FnOnce(&mut Vec<u8>), expected: &str) {
+    let mut bytes = encode(&example());
+    edit(&mut bytes);
+    assert_eq!(decode(&bytes).unwrap_err().to_string(), expected);
+}
+
+/// `[spec: ENC-2]`
+#[test]
+fn regress_version_of_tomorrow() {
+    check_refused(|bytes| bytes[0] = 2, "version 2; this library reads version 1");
+}
+
+/// `[spec: ENC-2]`
+#[test]
+fn regress_digest_where_a_state_is_expected() {
+    check_refused(|bytes| bytes[1] = 1, "at byte 1: 1 is no state");
+    let bytes = encode(&example());
+    assert_eq!(decode_digest(&bytes).unwrap_err().to_string(), "at byte 1: 0 is no digest");
+}
+
+/// `[spec: ENC-3]`
+#[test]
+fn regress_long_varint() {
+    check_refused(
+        |bytes| drop(bytes.splice(2..3, [0x82, 0])),
+        "at byte 2: the integer has a shorter spelling",
+    );
+    let eleven = [0xff; 11];
+    check_refused(
+        |bytes| drop(bytes.splice(2..3, eleven)),
+        "at byte 2: an integer is over 18446744073709551615",
+    );
+}
+
+/// `[spec: ENC-4]`
+#[test]
+fn regress_replica_table() {
+    check_refused(|bytes| bytes[3] = 2, "at byte 5: replica 1 is not greater than the one before");
+    check_refused(|bytes| bytes[3] = 3, "at byte 5: replica 1 is not greater than the one before");
+    check_refused(|bytes| drop(bytes.splice(10..13, [0])), "replica 1 of the table is never used");
+}
+
+/// `[spec: ENC-6]`
+#[test]
+fn regress_name_table() {
+    check_refused(|bytes| bytes[15] = b'z', "at byte 17: name 1 is not greater than the one before");
+    check_refused(|bytes| bytes[15] = 0xff, "at byte 15: the text is not UTF-8");
+    check_refused(|bytes| bytes[14] = 0, "at byte 14: a name has 0 bytes; allowed are 1 to 255");
+    let unused = |bytes: &mut Vec<u8>| {
+        bytes[13] = 5;
+        drop(bytes.splice(36..36, [1, b'z']));
+    };
+    check_refused(unused, "name 4 of the table is never used");
+}
+
+/// `[spec: ENC-8]`
+#[test]
+fn regress_record_fields() {
+    check_refused(|bytes| bytes[38] = 4, "at byte 38: 4 is no record kind");
+    check_refused(|bytes| bytes[40] = 4, "at byte 40: name 4 of a table of 4");
+    check_refused(|bytes| bytes[46] = 3, "at byte 46: replica 2 of a table of 2");
+    check_refused(|bytes| bytes[47] = 0, "at byte 47: sequence 0 names no event");
+    check_refused(|bytes| bytes[56] = 14, "at byte 56: 14 is no value type");
+    check_refused(|bytes| bytes[39] = 0, "[WF-5] r1.1: stamp 0 is outside 1 to 9007199254740991");
+    check_refused(|bytes| bytes[37] = 3, "[WF-1] r1.4 is held but its context has not seen it");
+}
+
+/// `[spec: ENC-9]`
+#[test]
+fn regress_trailing_bytes() {
+    check_refused(|bytes| bytes.push(0), "at byte 59: 1 bytes follow the end");
+}
+
+/// Every proper beginning of an encoding is refused. `[spec: ENC-10]`
+#[test]
+fn regress_cut_off() {
+    let bytes = encode(&example());
+    for length in 0..bytes.len() {
+        assert!(matches!(decode(&bytes[..length]), Err(DecodeError::End { .. })), "{length}");
+    }
+}
+
+/// Counts and lengths that promise far more than follows reserve nothing. `[spec: ENC-10]`
+#[test]
+fn regress_declared_length_of_petabytes() {
+    let huge = [0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0x7f];
+    let promises = [
+        [&[1, 0][..], &huge].concat(),                      // replicas
+        [&[1, 0, 1, 1, 0], &huge[..]].concat(),             // runs
+        [&[1, 0, 0], &huge[..]].concat(),                   // names
+        [&[1, 0, 1, 1, 0, 1, 0, 0, 0], &huge[..]].concat(), // records
+        [&[1, 0, 1, 1, 0, 1, 0, 0, 1, 1, b'a', 1, 0, 3, 1, 0, 0, 0, 9], &huge[..]].concat(), // items
+    ];
+    for bytes in promises {
+        let error = decode(&bytes).unwrap_err();
+        assert!(matches!(error, DecodeError::End { .. } | DecodeError::TooGreat { .. }), "{error}");
+    }
+}
+
+/// Eight bytes that name a thousand million dots one by one. `[spec: ENC-5]` `[spec: LIMIT-7]`
+#[test]
+fn regress_cloud_of_a_thousand_million_dots() {
+    let billion = [0xff, 0xff, 0xff, 0xff, 0x03];
+    let bytes = [&[1, 0, 1, 1, 0, 1, 1], &billion[..], &[0, 0]].concat();
+    assert_eq!(
+        decode(&bytes).unwrap_err().to_string(),
+        "at byte 6: the number of dots beyond gaps is over 1048576"
+    );
+    // Without a gap it is one number.
+    let bytes = [&[1, 0, 1, 1, 0, 1, 0], &billion[..], &[0, 0]].concat();
+    assert_eq!(decode(&bytes).unwrap().context().prefix(ReplicaId::agent(1)), 1 << 30);
+}
+
+/// `[spec: ENC-5]` `[spec: LIMIT-6]`
+#[test]
+fn regress_sequence_overflow() {
+    for byte in [0x1f, 0xff] {
+        let great = [0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, byte, 0x01];
+        let bytes = [&[1, 0, 1, 1, 0, 1][..], &great, &great, &[0, 0]].concat();
+        assert_eq!(decode(&bytes).unwrap_err().to_string(), "at byte 6: a sequence is over 9007199254740991");
+    }
+}
+
+/// A digest that claims to hold what it has not seen, or very much. `[spec: ENC-11]`
+#[test]
+fn regress_digest_of_no_state() {
+    let replica = ReplicaId::agent(1);
+    let run = |first, last| Run { replica, first, last };
+    let mut context = CausalContext::new();
+    context.insert_prefix(replica, limits::SEQUENCE_MAX);
+    let refused = |context: &CausalContext, live, expected: &str| {
+        let bytes = encode_digest(&Digest { context: context.clone(), live });
+        assert_eq!(decode_digest(&bytes).unwrap_err().to_string(), expected);
+    };
+    refused(&context, vec![run(1, limits::SEQUENCE_MAX)], "[ENC-11] over 16777216 live dots");
+    let other = Run { replica: ReplicaId::agent(2), first: 1, last: 1 };
+    refused(&context, vec![other], "replica 1 of the table is never used");
+    context = [1, 2, 5].map(|n| Dot::new(replica, n)).into_iter().collect();
+    refused(&context, vec![run(2, 3)], "[ENC-11] not every dot of r1.2 to 3 has been seen");
+    refused(&context, vec![run(5, 6)], "[ENC-11] not every dot of r1.5 to 6 has been seen");
+    refused(&context, vec![run(5, 5), run(1, 1)], "at byte 13: a sequence is over 9007199254740991");
+}
+
+/// Sequence 0 is no event; who assembles a state of it gets bytes that nobody accepts. `[spec: WF-1]`
+#[test]
+fn regress_record_under_sequence_zero() {
+    let records = example().records().map(|(_, record)| (Dot::default(), record.clone())).collect::<Vec<_>>();
+    let state = State::assemble(records, CausalContext::new());
+    assert!(decode(&encode(&state)).is_err());
+}
