@@ -31,7 +31,11 @@ pub fn assignments(records: usize) -> Vec<Conditions> {
 /// The state that an assignment means.
 pub fn state_of(records: &[(Dot, Record)], conditions: &[Condition]) -> State {
     let with = |wanted: fn(Condition) -> bool| {
-        records.iter().zip(conditions).filter(move |(_, condition)| wanted(**condition)).map(|(record, _)| record)
+        records
+            .iter()
+            .zip(conditions)
+            .filter(move |(_, condition)| wanted(**condition))
+            .map(|(record, _)| record)
     };
     let seen: CausalContext = with(|condition| condition != Unseen).map(|(dot, _)| *dot).collect();
     State::assemble(with(|condition| condition == Held).cloned(), seen)
@@ -45,7 +49,8 @@ pub fn conditions_of(records: &[(Dot, Record)], state: &State) -> Option<Conditi
         None => Some(Unseen),
     };
     let conditions: Conditions = records.iter().map(condition).collect::<Option<_>>()?;
-    let count = |wanted: fn(Condition) -> bool| conditions.iter().filter(|condition| wanted(**condition)).count();
+    let count =
+        |wanted: fn(Condition) -> bool| conditions.iter().filter(|condition| wanted(**condition)).count();
     let seen = state.context().runs().map(|run| run.dots().count()).sum::<usize>();
     let nothing_else = state.len() == count(|c| c == Held) && seen == count(|c| c != Unseen);
     nothing_else.then_some(conditions)
@@ -64,7 +69,10 @@ pub fn closure(records: &[(Dot, Record)], conditions: &[Condition]) -> Condition
         for at in 0..records.len() {
             let is_dead = |anchor: Dot| {
                 anchor != VertexId::ROOT.0
-                    && records.iter().zip(&closed).any(|((dot, _), condition)| *dot == anchor && *condition == Dead)
+                    && records
+                        .iter()
+                        .zip(&closed)
+                        .any(|((dot, _), condition)| *dot == anchor && *condition == Dead)
             };
             if closed[at] == Held && records[at].1.anchors().any(is_dead) {
                 closed[at] = Dead;

@@ -67,7 +67,8 @@ pub fn core_universe(records: usize) -> Vec<Family<State>> {
             let assignments = conditions::assignments(records.len());
             let is_closed = |&at: &usize| conditions::closure(&records, &assignments[at]) == assignments[at];
             let closed = (0..assignments.len()).filter(is_closed).collect();
-            let all = assignments.iter().map(|assignment| conditions::state_of(&records, assignment)).collect();
+            let all =
+                assignments.iter().map(|assignment| conditions::state_of(&records, assignment)).collect();
             Family { name, records, all, closed }
         })
         .collect()

@@ -106,11 +106,6 @@ impl Tally {
         Self { law, instances: 0, example: None }
     }
 
-    /// The law's clause.
-    pub(super) fn clause(&self) -> &'static str {
-        self.law.clause
-    }
-
     /// One instance: `holds` says whether the law's condition is true of it.
     pub(super) fn instance(&mut self, holds: bool, example: impl FnOnce(&'static str) -> Example) {
         self.instances += 1;

@@ -71,7 +71,8 @@ impl<'s, S: Algebra> Space<'s, S> {
         let count = self.family.all.len();
         let (l, r) = (left as usize, right as usize);
         let dense = l < count && r < count;
-        let known = if dense { self.joins[l * count + r] } else { *self.beyond.get(&(left, right)).unwrap_or(&NONE) };
+        let known =
+            if dense { self.joins[l * count + r] } else { *self.beyond.get(&(left, right)).unwrap_or(&NONE) };
         if known != NONE {
             return Some(known);
         }
@@ -102,12 +103,19 @@ impl<'s, S: Algebra> Space<'s, S> {
     pub(super) fn describe(&self, state: &S::State) -> String {
         let body = self.semantics.body(state);
         let conditions = body.and_then(|body| conditions::conditions_of(&self.family.records, body));
-        conditions
-            .map_or_else(|| format!("{state:?}"), |conditions| conditions::describe(&self.family.records, &conditions))
+        conditions.map_or_else(
+            || format!("{state:?}"),
+            |conditions| conditions::describe(&self.family.records, &conditions),
+        )
     }
 
     /// An example of some states.
-    pub(super) fn example(&self, clause: &'static str, states: &[(&'static str, Id)], detail: &str) -> Example {
+    pub(super) fn example(
+        &self,
+        clause: &'static str,
+        states: &[(&'static str, Id)],
+        detail: &str,
+    ) -> Example {
         let describe = |&(name, at): &(&'static str, Id)| (name, self.describe(self.state(at)));
         Example {
             family: self.family.name,

@@ -22,7 +22,9 @@ pub(super) fn oracle<S: Algebra>(space: &mut Space<'_, S>, tally: &mut Tally) {
     for (x, &closed) in space.all().zip(&closures) {
         let expected = conditions::closure(&space.family.records, &space.oracle[x as usize]);
         let holds = space.conditions(closed).is_some_and(|found| found == expected);
-        tally.instance(holds, |clause| space.example(clause, &[("X", x), ("close(X)", closed)], "not the closure"));
+        tally.instance(holds, |clause| {
+            space.example(clause, &[("X", x), ("close(X)", closed)], "not the closure")
+        });
     }
 }
 
@@ -32,7 +34,9 @@ pub(super) fn inflationary<S: Algebra>(space: &mut Space<'_, S>, tally: &mut Tal
     for (x, &closed) in space.all().zip(&closures) {
         let after = space.conditions(closed);
         let holds = after.is_some_and(|after| conditions::is_below(&space.oracle[x as usize], &after));
-        tally.instance(holds, |clause| space.example(clause, &[("X", x), ("close(X)", closed)], "a dot moved back"));
+        tally.instance(holds, |clause| {
+            space.example(clause, &[("X", x), ("close(X)", closed)], "a dot moved back")
+        });
     }
 }
 

@@ -12,7 +12,9 @@ pub(super) fn merge_oracle<S: Algebra>(space: &mut Space<'_, S>, tally: &mut Tal
         let merged = space.intern(merged);
         let expected = conditions::merged(&space.oracle[x as usize], &space.oracle[y as usize]);
         let holds = space.conditions(merged).is_some_and(|found| found == expected);
-        tally.instance(holds, |clause| space.example(clause, &[("X", x), ("Y", y), ("merge", merged)], "not the maximum"));
+        tally.instance(holds, |clause| {
+            space.example(clause, &[("X", x), ("Y", y), ("merge", merged)], "not the maximum")
+        });
     }
 }
 
@@ -56,7 +58,11 @@ pub(super) fn neutral<S: Algebra>(space: &mut Space<'_, S>, tally: &mut Tally) {
         for (left, right) in [(0, x), (x, 0)] {
             let Some(joined) = space.join(left, right) else { return };
             tally.instance(joined == x, |clause| {
-                space.example(clause, &[("left", left), ("right", right), ("join", joined)], "not the other one")
+                space.example(
+                    clause,
+                    &[("left", left), ("right", right), ("join", joined)],
+                    "not the other one",
+                )
             });
         }
     }
@@ -130,7 +136,11 @@ pub(super) fn monotone<S: Algebra>(space: &mut Space<'_, S>, tally: &mut Tally) 
             let (Some(xz), Some(yz)) = (space.join(x, z), space.join(y, z)) else { return };
             let Some(both) = space.join(xz, yz) else { return };
             tally.instance(both == yz, |clause| {
-                space.example(clause, &[("X", x), ("Y", y), ("Z", z), ("X ⊔ Z", xz), ("Y ⊔ Z", yz)], "not below")
+                space.example(
+                    clause,
+                    &[("X", x), ("Y", y), ("Z", z), ("X ⊔ Z", xz), ("Y ⊔ Z", yz)],
+                    "not below",
+                )
             });
         }
     }

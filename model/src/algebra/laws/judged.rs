@@ -29,7 +29,8 @@ pub(super) fn deliveries<S: Algebra>(space: &mut Space<'_, S>, tally: &mut Tally
         let Some(joined) = space.join(x, y) else { return };
         let verdict = space.semantics.judge_delivery(space.state(x), space.state(joined));
         tally.instance(verdict.is_ok(), |_| {
-            let (clause, detail) = verdict.err().map_or(("", String::new()), |breach| (breach.clause, breach.detail));
+            let (clause, detail) =
+                verdict.err().map_or(("", String::new()), |breach| (breach.clause, breach.detail));
             space.example(clause, &[("before", x), ("delivered", y), ("after", joined)], &detail)
         });
     }
@@ -41,7 +42,9 @@ pub(super) fn renaming<S: Algebra>(space: &mut Space<'_, S>, tally: &mut Tally) 
         space.all().map(|x| space.semantics.rename_state(space.state(x), &SWAP)).collect();
     for (x, y) in space.pairs() {
         let (left, right) = (&renamed[x as usize], &renamed[y as usize]);
-        let (Some(joined), Some(after)) = (space.join(x, y), space.semantics.join_states(left, right)) else { return };
+        let (Some(joined), Some(after)) = (space.join(x, y), space.semantics.join_states(left, right)) else {
+            return;
+        };
         let holds = space.semantics.rename_state(space.state(joined), &SWAP) == after;
         tally.instance(holds, |clause| {
             let detail = format!("joined after renaming: {}", space.describe(&after));

@@ -29,7 +29,10 @@ pub(super) fn laws<S: Algebra>() -> Vec<(Law, Check<S>)> {
         (all("JOIN-3", "idempotence: X ⊔ X = X"), join::idempotence),
         (all("JOIN-3", "commutativity: X ⊔ Y = Y ⊔ X"), join::commutativity),
         (all("JOIN-3", "the empty state is neutral"), join::neutral),
-        (all("JOIN-3", "the join of closed states is closed, and all that it holds was seen"), join::well_formed),
+        (
+            all("JOIN-3", "the join of closed states is closed, and all that it holds was seen"),
+            join::well_formed,
+        ),
         (all("JOIN-3", "associativity: (X ⊔ Y) ⊔ Z = X ⊔ (Y ⊔ Z)"), join::associativity),
         (all("JOIN-4", "X ⊔ Y = Y exactly if each dot of X is at most as far as in Y"), join::order),
         (all("JOIN-4", "X ⊑ X ⊔ Y, and Y too"), join::upper_bound),
@@ -54,6 +57,9 @@ pub(super) fn laws<S: Algebra>() -> Vec<(Law, Check<S>)> {
         (some("SYNC-2", "equal contexts do not mean equal states"), sync::context_is_no_digest),
         (all("CHECK-5", "renaming replicas commutes with join"), judged::renaming),
         (all("STATE-3", "each delivery is accepted by the judge of deliveries"), judged::deliveries),
-        (all("VIEW-1", "every state, reachable or not, has a view that keeps the invariants"), judged::states),
+        (
+            all("VIEW-1", "every state, reachable or not, has a view that keeps the invariants"),
+            judged::states,
+        ),
     ]
 }

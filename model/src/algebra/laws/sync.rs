@@ -69,7 +69,9 @@ pub(super) fn fingerprints<S: Algebra>(space: &mut Space<'_, S>, tally: &mut Tal
     let Some(fingerprints) = fingerprints else { return };
     for (x, y) in space.all_pairs() {
         let equal = fingerprints[x as usize] == fingerprints[y as usize];
-        tally.instance(equal == (x == y), |clause| space.example(clause, &[("X", x), ("Y", y)], "one fingerprint"));
+        tally.instance(equal == (x == y), |clause| {
+            space.example(clause, &[("X", x), ("Y", y)], "one fingerprint")
+        });
     }
 }
 
@@ -86,11 +88,14 @@ pub(super) fn both_ways<S: Algebra>(space: &mut Space<'_, S>, tally: &mut Tally)
 /// A witness that contexts alone do not tell states apart. `[property: SYNC-2]`
 pub(super) fn context_is_no_digest<S: Algebra>(space: &mut Space<'_, S>, tally: &mut Tally) {
     for (x, y) in space.pairs() {
-        let (Some(left), Some(right)) = (space.semantics.body(space.state(x)), space.semantics.body(space.state(y)))
+        let (Some(left), Some(right)) =
+            (space.semantics.body(space.state(x)), space.semantics.body(space.state(y)))
         else {
             return;
         };
         let witness = left.context() == right.context() && x != y;
-        tally.instance(witness, |clause| space.example(clause, &[("X", x), ("Y", y)], "one context, two states"));
+        tally.instance(witness, |clause| {
+            space.example(clause, &[("X", x), ("Y", y)], "one context, two states")
+        });
     }
 }
