@@ -181,6 +181,7 @@ mod tests {
     use super::*;
     use alloc::string::ToString;
 
+    /// [spec: ID-4]
     #[test]
     fn law_dots_print_and_parse_back() {
         for text in ["r0.1", "r3.17", "r3+1.17", "r4294967295.18446744073709551615"] {
@@ -190,6 +191,7 @@ mod tests {
         assert_eq!(VertexId::ROOT.to_string(), "root");
     }
 
+    /// [spec: ID-4]
     #[test]
     fn law_a_dot_has_one_spelling() {
         for text in [

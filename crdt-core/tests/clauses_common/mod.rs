@@ -222,3 +222,5 @@ pub(crate) fn flat() -> Flat {
     let sees = base.edge(drone, "sees", hall);
     Flat { base, kitchen, hall, table, bowl, spoon, pole, post, lamp, shelf, cup, robot, drone, sees }
 }
+
+pub(crate) mod history;
