@@ -30,7 +30,8 @@ fn counts(text: &str) -> (usize, usize, usize) {
     let document: serde_json::Value = serde_json::from_str(text).unwrap();
     let symbols = document["DSRModel"]["symbols"].as_object().unwrap();
     let links = symbols.values().flat_map(|symbol| symbol["links"].as_array().unwrap());
-    let attributes = symbols.values().map(|symbol| symbol["attribute"].as_object().unwrap().len()).sum::<usize>();
+    let attributes =
+        symbols.values().map(|symbol| symbol["attribute"].as_object().unwrap().len()).sum::<usize>();
     let on_links = links.clone().map(|link| link["linkAttribute"].as_object().unwrap().len()).sum::<usize>();
     (symbols.len(), links.count(), attributes + on_links)
 }
@@ -38,7 +39,11 @@ fn counts(text: &str) -> (usize, usize, usize) {
 fn counts_of(scene: &Scene) -> (usize, usize, usize) {
     let count = |kind: fn(&Record) -> bool| scene.state.records().filter(|(_, record)| kind(record)).count();
     let vertices = count(|record| matches!(record, Record::Vertex(_)));
-    (vertices + 1, count(|record| matches!(record, Record::Edge(_))), count(|record| matches!(record, Record::Write(_))))
+    (
+        vertices + 1,
+        count(|record| matches!(record, Record::Edge(_))),
+        count(|record| matches!(record, Record::Write(_))),
+    )
 }
 
 /// [spec: SCENE-1] [spec: SCENE-7] [spec: SCENE-14] [spec: SCENE-15]
@@ -67,8 +72,13 @@ fn law_the_shared_scene_with_dangling_links_is_refused_with_each_of_them() {
             (symbol.id.as_str(), link.label.as_deref().unwrap(), link.target.unwrap())
         })
         .collect();
-    let expected =
-        [("1", "RT", 300), ("1", "RT", 302), ("1", "RT", 304), ("1", "RT", 310), ("1000", "has", 1_694_498_851)];
+    let expected = [
+        ("1", "RT", 300),
+        ("1", "RT", 302),
+        ("1", "RT", 304),
+        ("1", "RT", 310),
+        ("1000", "has", 1_694_498_851),
+    ];
     assert_eq!(named, expected);
     let lenient = Scene::read(&text, &Dictionary::open(), Strictness::Lenient).unwrap();
     assert_eq!(lenient.dropped, refused.faults);
@@ -128,7 +138,8 @@ fn law_the_dictionaries_hold_the_published_names() {
     assert_eq!(published.attributes.len(), 231);
     assert!(published.is_functional("in"));
     assert_eq!(published.functional_labels.len(), 1);
-    let count = |value_type| published.attributes.values().filter(|declared| **declared == value_type).count();
+    let count =
+        |value_type| published.attributes.values().filter(|declared| **declared == value_type).count();
     let counts: Vec<usize> = ValueType::ALL.into_iter().map(count).collect();
     assert_eq!(counts, [22, 55, 58, 53, 21, 5, 4, 6, 1, 2, 1, 1, 1, 1]);
     let aal = Dictionary::aal();
@@ -139,6 +150,7 @@ fn law_the_dictionaries_hold_the_published_names() {
     for (name, declared) in &published.attributes {
         assert_eq!(aal.attribute_type(name), Some(*declared), "{name}");
     }
-    let added: BTreeSet<_> = aal.edge_labels.difference(&published.edge_labels).map(|label| &**label).collect();
+    let added: BTreeSet<_> =
+        aal.edge_labels.difference(&published.edge_labels).map(|label| &**label).collect();
     assert!(added.contains("wants_to") && added.contains("is_with"), "{added:?}");
 }

@@ -59,7 +59,9 @@ fn attributes_of(state: &State) -> [BTreeMap<String, (Value, u64)>; 2] {
     let edge = graph.edge(VertexId::ROOT, "RT", hub).unwrap().id;
     [hub.0, edge.0].map(|target| {
         let winners = graph.attributes_of(target);
-        winners.map(|(_, write)| (write.name.to_string(), (write.value.clone(), write.timestamp_ns))).collect()
+        winners
+            .map(|(_, write)| (write.name.to_string(), (write.value.clone(), write.timestamp_ns)))
+            .collect()
     })
 }
 
@@ -144,7 +146,11 @@ fn regress_numbers_out_of_range_are_refused_not_wrapped() {
         (1, "1e400", "the value must be a 32-bit integer, but it is a number"),
         (2, "1e39", "1e39 is outside what a 32-bit float can hold"),
         (2, "true", "the value must be a 32-bit float, but it is true or false"),
-        (2, "\"five\"", "the value must be a number, or \"NaN\", \"Infinity\", \"-Infinity\", but it is text"),
+        (
+            2,
+            "\"five\"",
+            "the value must be a number, or \"NaN\", \"Infinity\", \"-Infinity\", but it is text",
+        ),
         (2, "\"\"", "the value must be a 32-bit float, but it is text"),
         (3, "[1, 2e99]", "item 1: 2e99 is outside what a 32-bit float can hold"),
         (3, "{}", "the value must be a list, but it is an object"),
@@ -153,11 +159,19 @@ fn regress_numbers_out_of_range_are_refused_not_wrapped() {
         (5, "[-1]", "item 0: -1 is outside what a byte (0 to 255) can hold"),
         (6, "-1", "-1 is outside what an unsigned 32-bit integer can hold"),
         (6, "4294967296", "4294967296 is outside what an unsigned 32-bit integer can hold"),
-        (7, "18446744073709551616", "18446744073709551616 is outside what an unsigned 64-bit integer can hold"),
+        (
+            7,
+            "18446744073709551616",
+            "18446744073709551616 is outside what an unsigned 64-bit integer can hold",
+        ),
         (7, "\"+1\"", "the value must be an unsigned 64-bit integer, in digits alone, but it is text"),
         (7, "null", "the value must be an unsigned 64-bit integer, but it is null"),
         (8, "1e400", "1e400 is outside what a 64-bit float can hold"),
-        (9, "[\"01\"]", "item 0: the value must be an unsigned 64-bit integer, in digits alone, but it is text"),
+        (
+            9,
+            "[\"01\"]",
+            "item 0: the value must be an unsigned 64-bit integer, in digits alone, but it is text",
+        ),
         (10, "[1]", "a vec2 has 2 items, but here are 1"),
         (13, "[]", "a vec6 has 6 items, but here are 0"),
         (14, "0", "\"14\" is no attribute type: types are the numbers 0 to 13"),

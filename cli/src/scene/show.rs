@@ -86,6 +86,7 @@ fn repair_line(named: &Named<'_>, repair: &Repair) -> String {
 
 /// The tree below a vertex; not by recursion, since a scene may be one long chain.
 fn tree(named: &Named<'_>, top: VertexId) -> String {
+    const INDENT_MAX: usize = 60;
     let mut text = String::new();
     let mut pending = vec![(top, 0_usize, None)];
     while let Some((vertex, depth, edge)) = pending.pop() {
@@ -94,7 +95,7 @@ fn tree(named: &Named<'_>, top: VertexId) -> String {
             &mut text,
             format_args!(
                 "{}{}{pose}{}\n",
-                "  ".repeat(depth + 1),
+                "  ".repeat(depth.min(INDENT_MAX) + 1),
                 head(named, vertex),
                 summary(named, vertex.0)
             ),

@@ -22,7 +22,9 @@ pub(crate) fn symbol(id: u64, name: &str, attributes: &str, links: &str) -> Stri
 
 /// A link without attributes.
 pub(crate) fn link(source: u64, label: &str, target: u64) -> String {
-    format!("{{\"src\": \"{source}\", \"dst\": \"{target}\", \"label\": \"{label}\", \"linkAttribute\": {{}}}}")
+    format!(
+        "{{\"src\": \"{source}\", \"dst\": \"{target}\", \"label\": \"{label}\", \"linkAttribute\": {{}}}}"
+    )
 }
 
 /// A scene of the root and one symbol 2 `hub` with these attributes.
@@ -33,7 +35,9 @@ pub(crate) fn with_attributes(attributes: &str) -> String {
 /// The faults of a text, read strictly under the open dictionary.
 #[track_caller]
 pub(crate) fn faults(text: &str) -> Vec<Fault> {
-    Scene::read(text, &Dictionary::open(), Strictness::Strict).expect_err("the scene should be refused").faults
+    Scene::read(text, &Dictionary::open(), Strictness::Strict)
+        .expect_err("the scene should be refused")
+        .faults
 }
 
 /// The faults of a text, as lines; each has a remedy.
@@ -48,7 +52,8 @@ pub(crate) fn fault_lines(text: &str) -> Vec<String> {
 /// well-formed state whose view needs no repair. `[property: SCENE-14]` `[property: SCENE-15]`
 #[track_caller]
 pub(crate) fn check_lossless(text: &str, dictionary: &Dictionary) -> Scene {
-    let imported = Scene::read(text, dictionary, Strictness::Strict).unwrap_or_else(|error| panic!("{error}"));
+    let imported =
+        Scene::read(text, dictionary, Strictness::Strict).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(imported.dropped, []);
     let scene = imported.scene;
     check_well_formed(&scene.state).unwrap();
