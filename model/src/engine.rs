@@ -19,7 +19,7 @@ pub struct Counts {
 }
 
 /// Counts every history within the bound; `None` if there are more than `states_max` or a step is faulty.
-pub fn count<S: Semantics>(histories: &mut Histories<'_, S>, states_max: u64) -> Option<Counts> {
+pub fn count<S: Semantics>(histories: &mut Histories<S>, states_max: u64) -> Option<Counts> {
     let start = histories.start();
     let mut seen = FxHashSet::from_iter([start]);
     let mut level = vec![start];
@@ -55,7 +55,7 @@ pub struct Counterexample<S: Semantics> {
 /// The first fault in breadth-first order: with the fewest mutations. Judges every history.
 ///
 /// `None` if there is none among the first `states_max` histories.
-pub fn find_fault<S: Semantics>(histories: &mut Histories<'_, S>, states_max: usize) -> Option<Counterexample<S>> {
+pub fn find_fault<S: Semantics>(histories: &mut Histories<S>, states_max: usize) -> Option<Counterexample<S>> {
     let start = histories.start();
     let mut seen = FxHashSet::from_iter([start]);
     let mut nodes: Vec<(History, Option<(usize, Choice)>)> = vec![(start, None)];
@@ -91,7 +91,7 @@ fn path(nodes: &[(History, Option<(usize, Choice)>)], mut at: usize) -> Vec<Choi
 }
 
 /// Leaves out deliveries while the same clause still breaks in the delivered set.
-fn shrink<S: Semantics>(histories: &mut Histories<'_, S>, mut fault: Fault) -> Fault {
+fn shrink<S: Semantics>(histories: &mut Histories<S>, mut fault: Fault) -> Fault {
     let mut at = 0;
     while at < fault.delivered.len() {
         let mut fewer = fault.delivered.clone();

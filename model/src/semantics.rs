@@ -59,6 +59,11 @@ pub trait Semantics: Send + Sync {
     /// The names of the kinds of mutation.
     fn kinds(&self) -> Vec<&'static str>;
 
+    /// The kinds that a run must see done, as indices: those that its mutations are of.
+    fn kinds_in_use(&self) -> Vec<usize> {
+        (0..self.kinds().len()).collect()
+    }
+
     /// The names of the witnesses that [`judge`](Self::judge) can report, by bit.
     fn witnesses(&self) -> Vec<&'static str>;
 

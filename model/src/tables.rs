@@ -119,6 +119,11 @@ impl<S: Semantics> Tables<S> {
         self.kinds[id as usize]
     }
 
+    /// The kinds of all deltas, by bit.
+    pub fn all_kinds(&self) -> u32 {
+        self.kinds.iter().fold(0, |all, kinds| all | kinds)
+    }
+
     /// How many different states and deltas were met.
     pub fn sizes(&self) -> (usize, usize) {
         (self.states.values.len(), self.deltas.values.len())

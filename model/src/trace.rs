@@ -90,20 +90,20 @@ pub struct TraceBreach {
 }
 
 /// Writes traces of L1 counterexamples.
-pub(crate) struct TraceWriter<'h, 's, S: Semantics> {
-    semantics: &'s S,
-    histories: &'h mut Histories<'s, S>,
+pub(crate) struct TraceWriter<'h, S: Semantics> {
+    semantics: &'h S,
+    histories: &'h mut Histories<S>,
     steps: Vec<TraceStep>,
     /// Broadcast so far, by message number.
     messages: Vec<DeltaId>,
     states: Vec<StateId>,
 }
 
-impl<'h, 's, S: Semantics> TraceWriter<'h, 's, S> {
+impl<'h, S: Semantics> TraceWriter<'h, S> {
     /// The trace of a counterexample.
     pub(crate) fn write(
-        semantics: &'s S,
-        histories: &'h mut Histories<'s, S>,
+        semantics: &'h S,
+        histories: &'h mut Histories<S>,
         found: &Counterexample<S>,
     ) -> Trace {
         let replicas = histories.bound().replicas;

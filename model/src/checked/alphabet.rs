@@ -19,7 +19,7 @@ pub const PLAIN: &str = "has";
 pub const ATTRIBUTE: &str = "level";
 
 /// The mutations of the chosen kinds on the vertices in focus, on the edges between them, and on whatever
-/// replicas add.
+/// replicas add. Below the root there are kinematic edges only: a symbolic edge to it says nothing.
 ///
 /// Values are not varied: the semantics never looks into them (it compares the writes' ranks), so one
 /// value stands for all. New vertices take a name of their own, or a shared one that can clash.
@@ -94,7 +94,8 @@ impl Alphabet {
                 } else {
                     to.to = end;
                 }
-                if to != from {
+                let symbolic_to_root = to.to.is_root();
+                if to != from && !symbolic_to_root {
                     mutations.push(Mutation::MoveEdge { from: from.clone(), to, attributes: AttributeMap::new() });
                 }
             }
@@ -102,7 +103,10 @@ impl Alphabet {
     }
 
     fn edges_in_focus<'v>(&self, view: &'v View<'_>) -> impl Iterator<Item = dsr_core::ShownEdge<'v>> {
-        let inside = |shown: &&dsr_core::ShownEdge<'v>| self.in_focus(shown.edge.from) && self.in_focus(shown.edge.to);
+        let inside = |shown: &&dsr_core::ShownEdge<'v>| {
+            let (from, to) = (shown.edge.from, shown.edge.to);
+            self.in_focus(from) && self.in_focus(to) && !to.is_root() && (!from.is_root() || shown.edge.is_rt())
+        };
         view.edges().iter().filter(inside).copied()
     }
 }
@@ -121,14 +125,14 @@ fn add_vertex(view: &View<'_>, replica: usize, focus: &[VertexId], mutations: &m
     mutations.push(Mutation::AddVertex { vertex: twin, link: VertexLink::child_of(VertexId::ROOT) });
 }
 
-/// A functional and a plain symbolic edge between each two vertices besides the root; a kinematic one to
-/// each vertex that has no parent.
+/// Between each two vertices besides the root a functional edge, and a plain one from the older to the
+/// younger; a kinematic one to each vertex that has no parent.
 fn add_edge(view: &View<'_>, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
     for &from in focus {
         for &to in focus.iter().filter(|&&to| to != from) {
             let orphan = matches!(view.placement(to), Some(Placement::Outside | Placement::Detached));
             let symbolic = !from.is_root() && !to.is_root();
-            let labels = [(FUNCTIONAL, symbolic), (PLAIN, symbolic), (RT, orphan)];
+            let labels = [(FUNCTIONAL, symbolic), (PLAIN, symbolic && from < to), (RT, orphan)];
             let labels = labels.into_iter().filter(|(_, wanted)| *wanted);
             mutations.extend(labels.map(|(label, _)| Mutation::AddEdge {
                 key: EdgeKey::new(from, label, to),

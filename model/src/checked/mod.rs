@@ -53,9 +53,14 @@ impl fmt::Display for Act {
     }
 }
 
+/// Index `r + INCARNATION` of the checker is the next incarnation of replica `r`. `[spec: CRASH-2]`
+pub const INCARNATION: usize = 8;
+
 /// The replica that index `replica` of the checker stands for; the scene's author is agent 0.
 pub fn replica_id(replica: usize) -> ReplicaId {
-    ReplicaId::agent(u32::try_from(replica).unwrap_or(u32::MAX).saturating_add(1))
+    let number = |count| u32::try_from(count).unwrap_or(u32::MAX);
+    let agent = number(replica % INCARNATION).saturating_add(1);
+    ReplicaId { agent, incarnation: number(replica / INCARNATION) }
 }
 
 /// The kinds of repair, by bit.
@@ -198,6 +203,10 @@ impl Semantics for Checked {
 
     fn kinds(&self) -> Vec<&'static str> {
         MutationKind::ALL.map(MutationKind::name).to_vec()
+    }
+
+    fn kinds_in_use(&self) -> Vec<usize> {
+        self.alphabet.kinds.iter().map(|&kind| kind as usize).collect()
     }
 
     fn witnesses(&self) -> Vec<&'static str> {

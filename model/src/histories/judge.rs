@@ -37,7 +37,7 @@ impl Fault {
     }
 }
 
-impl<S: Semantics> Histories<'_, S> {
+impl<S: Semantics> Histories<S> {
     /// Sets and diamonds judged so far.
     pub fn judged(&self) -> (u64, u64) {
         (self.judge.delivered, self.judge.diamonds)
@@ -120,7 +120,7 @@ impl<S: Semantics> Histories<'_, S> {
     /// What was delivered changes nothing when it is delivered again.
     fn judge_again(&mut self, state: StateId, set: &[DeltaId]) -> Result<(), Fault> {
         for &delta in set {
-            if self.tables.join(self.semantics, state, delta) != state {
+            if self.tables.join(&self.semantics, state, delta) != state {
                 let breach = Breach::new("JOIN-3", "a delta delivered twice is not the same as once");
                 return Err(Fault::new(breach, set, Some(delta)));
             }
@@ -158,11 +158,11 @@ impl<S: Semantics> Histories<'_, S> {
 
     /// Judges a state, and its images where they are not judged by symmetry.
     fn judge_fresh(&mut self, state: &S::State, images: bool) -> Result<(), Breach> {
-        let judged = self.tables.judge(self.semantics, state)?;
+        let judged = self.tables.judge(&self.semantics, state)?;
         if images && judged.order_sensitive {
             for permutation in 1..self.permutations.len() {
                 let image = self.semantics.rename_state(state, self.permutations.get(permutation));
-                self.tables.judge(self.semantics, &image)?;
+                self.tables.judge(&self.semantics, &image)?;
             }
         }
         Ok(())
@@ -173,7 +173,7 @@ impl<S: Semantics> Histories<'_, S> {
         (0..self.bound.replicas).any(|replica| {
             let last = history.last[replica];
             // A faulty step is a fault, not an end: the search is about to meet it.
-            last != NONE && self.tables.moves(self.semantics, last, replica).map_or(true, |moves| !moves.is_empty())
+            last != NONE && self.tables.moves(&self.semantics, last, replica).map_or(true, |moves| !moves.is_empty())
         })
     }
 }

@@ -10,15 +10,18 @@
 
 mod judge;
 mod model;
+mod run;
 mod symmetry;
 
 pub use judge::Fault;
 pub use model::{FoundFault, HistoryModel};
+pub use run::HistoryRun;
 pub use symmetry::Permutations;
 
 use crate::semantics::Semantics;
 use crate::tables::{DeltaId, NONE, StateId, StepFault, Tables};
 use judge::Judge;
+use std::sync::Arc;
 
 /// The most replicas of a run.
 pub const REPLICAS_MAX: usize = 4;
@@ -81,8 +84,8 @@ pub struct Choice {
 
 /// The search space of L1 over one semantics: successors and judgement, whatever the engine.
 #[derive(Debug)]
-pub struct Histories<'s, S: Semantics> {
-    semantics: &'s S,
+pub struct Histories<S: Semantics> {
+    semantics: Arc<S>,
     bound: Bound,
     permutations: Permutations,
     tables: Tables<S>,
@@ -95,12 +98,13 @@ pub struct Histories<'s, S: Semantics> {
     initial: StateId,
 }
 
-impl<'s, S: Semantics> Histories<'s, S> {
+impl<S: Semantics> Histories<S> {
     /// The space of `bound`; with `symmetry`, histories that differ by renaming replicas are one, where
     /// that is sound.
-    pub fn new(semantics: &'s S, bound: Bound, symmetry: bool) -> Self {
+    pub fn new(semantics: Arc<S>, bound: Bound, symmetry: bool) -> Self {
         let mut tables = Tables::default();
         let initial = tables.intern(semantics.initial());
+        let kinds = semantics.kinds().len();
         Self {
             semantics,
             bound,
@@ -109,7 +113,7 @@ impl<'s, S: Semantics> Histories<'s, S> {
             judge: Judge::default(),
             replay_max: REPLAY_MAX,
             concurrent: 0,
-            kinds: semantics.kinds().len(),
+            kinds,
             initial,
         }
     }
@@ -130,7 +134,7 @@ impl<'s, S: Semantics> Histories<'s, S> {
 
     /// The state after a delivery.
     pub fn join(&mut self, state: StateId, delta: DeltaId) -> StateId {
-        self.tables.join(self.semantics, state, delta)
+        self.tables.join(&self.semantics, state, delta)
     }
 
     /// The number of a state from outside the search, for its trace.
@@ -146,6 +150,11 @@ impl<'s, S: Semantics> Histories<'s, S> {
     /// What was computed.
     pub fn tables(&self) -> &Tables<S> {
         &self.tables
+    }
+
+    /// The kinds of mutation that were done, by bit.
+    pub fn kinds_done(&self) -> u32 {
+        self.tables.all_kinds()
     }
 
     /// Pairs of kinds that were concurrent, with their indices.
@@ -166,7 +175,7 @@ impl<'s, S: Semantics> Histories<'s, S> {
                 continue;
             }
             for before in self.reachable(history, replica) {
-                if !history.concrete && self.tables.is_order_sensitive(self.semantics, before) {
+                if !history.concrete && self.tables.is_order_sensitive(&self.semantics, before) {
                     self.successors_of_images(history, replica, before, out)?;
                 } else {
                     self.successors_at(history, replica, before, out)?;
@@ -185,7 +194,7 @@ impl<'s, S: Semantics> Histories<'s, S> {
         let mut states = vec![history.last[replica]];
         for delta in foreign {
             for at in 0..states.len() {
-                let joined = self.tables.join(self.semantics, states[at], delta);
+                let joined = self.tables.join(&self.semantics, states[at], delta);
                 states.push(joined);
             }
             states.sort_unstable();
@@ -201,14 +210,14 @@ impl<'s, S: Semantics> Histories<'s, S> {
         before: StateId,
         out: &mut Vec<(Choice, History)>,
     ) -> Result<(), StepFault<S>> {
-        let moves = self.tables.moves(self.semantics, before, replica)?;
+        let moves = self.tables.moves(&self.semantics, before, replica)?;
         let unseen = self.kinds_unseen(history, replica, before);
         let made = history.made(replica);
         for step in moves.iter() {
             let mut next = *history;
             next.deltas[replica][made] = step.delta;
             next.last[replica] = if made + 1 < self.bound.mutations {
-                self.tables.join(self.semantics, before, step.delta)
+                self.tables.join(&self.semantics, before, step.delta)
             } else {
                 NONE
             };
@@ -232,7 +241,7 @@ impl<'s, S: Semantics> Histories<'s, S> {
             image.concrete = true;
             let to = self.permutations.get(permutation);
             let (replica, to) = (to[replica], to.to_vec());
-            let before = self.tables.rename_state(self.semantics, before, permutation, &to);
+            let before = self.tables.rename_state(&self.semantics, before, permutation, &to);
             self.successors_at(&image, replica, before, out)?;
         }
         Ok(())
@@ -243,7 +252,7 @@ impl<'s, S: Semantics> Histories<'s, S> {
         let mut kinds = 0;
         for (other, deltas) in history.deltas.iter().enumerate() {
             for &delta in deltas.iter().filter(|&&delta| delta != NONE && other != replica) {
-                if self.tables.join(self.semantics, before, delta) != before {
+                if self.tables.join(&self.semantics, before, delta) != before {
                     kinds |= self.tables.delta_kinds(delta);
                 }
             }

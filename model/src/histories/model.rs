@@ -1,23 +1,27 @@
 //! The search space of L1 as a stateright model.
 
 use super::{Bound, Choice, Fault, Histories, History};
+use crate::progress::Progress;
 use crate::semantics::{Breach, Semantics};
 use crate::tables::StepFault;
 use stateright::{Model, Property};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// L1 as stateright sees it: successors and one property, the conjunction of all clauses.
 ///
 /// One property only: with several, stateright 0.31 no longer reports the first violation that it met.
 #[derive(Debug)]
-pub struct HistoryModel<'s, S: Semantics> {
-    inner: Mutex<Inner<'s, S>>,
+pub struct HistoryModel<S: Semantics> {
+    inner: Mutex<Inner<S>>,
+    progress: Arc<Progress>,
 }
 
 #[derive(Debug)]
-struct Inner<'s, S: Semantics> {
-    histories: Histories<'s, S>,
+struct Inner<S: Semantics> {
+    histories: Histories<S>,
     fault: Option<FoundFault<S>>,
+    /// Whether the search was told to stop before its end.
+    cut: bool,
     /// Successors generated.
     generated: u64,
     /// Histories whose successors were generated.
@@ -43,32 +47,32 @@ impl<S: Semantics> FoundFault<S> {
     }
 }
 
-impl<'s, S: Semantics> HistoryModel<'s, S> {
-    /// The model of a bound.
-    pub fn new(semantics: &'s S, bound: Bound, symmetry: bool) -> Self {
+impl<S: Semantics> HistoryModel<S> {
+    /// The model of a bound; it counts into `progress` and stops when that says so.
+    pub fn new(semantics: Arc<S>, bound: Bound, symmetry: bool, progress: Arc<Progress>) -> Self {
         let histories = Histories::new(semantics, bound, symmetry);
-        Self { inner: Mutex::new(Inner { histories, fault: None, generated: 0, expanded: 0 }) }
+        Self { inner: Mutex::new(Inner { histories, fault: None, cut: false, generated: 0, expanded: 0 }), progress }
     }
 
-    fn inner(&self) -> MutexGuard<'_, Inner<'s, S>> {
+    fn inner(&self) -> MutexGuard<'_, Inner<S>> {
         // A panic inside the semantics ends the run anyway.
         self.inner.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Histories expanded and successors generated so far.
-    pub fn counts(&self) -> (u64, u64) {
+    /// Histories expanded, successors generated, and whether the search was cut short.
+    pub fn counts(&self) -> (u64, u64, bool) {
         let inner = self.inner();
-        (inner.expanded, inner.generated)
+        (inner.expanded, inner.generated, inner.cut)
     }
 
     /// Looks at the space and the first fault.
-    pub fn inspect<T>(&self, look: impl FnOnce(&mut Histories<'s, S>, Option<&FoundFault<S>>) -> T) -> T {
+    pub fn inspect<T>(&self, look: impl FnOnce(&mut Histories<S>, Option<&FoundFault<S>>) -> T) -> T {
         let inner = &mut *self.inner();
         look(&mut inner.histories, inner.fault.as_ref())
     }
 }
 
-impl<S: Semantics> Model for HistoryModel<'_, S> {
+impl<S: Semantics + 'static> Model for HistoryModel<S> {
     type State = History;
     type Action = (Choice, History);
 
@@ -78,12 +82,19 @@ impl<S: Semantics> Model for HistoryModel<'_, S> {
 
     fn actions(&self, history: &History, actions: &mut Vec<Self::Action>) {
         let inner = &mut *self.inner();
+        if self.progress.must_stop() {
+            inner.cut = true;
+            return;
+        }
         inner.expanded += 1;
         if inner.fault.is_some() {
             return;
         }
         match inner.histories.successors(history, actions) {
-            Ok(()) => inner.generated += actions.len() as u64,
+            Ok(()) => {
+                inner.generated += actions.len() as u64;
+                self.progress.note(inner.expanded, inner.generated, inner.histories.judged().0, history.depth());
+            }
             Err(fault) => {
                 inner.fault = Some(FoundFault::Step(fault));
                 actions.clear();

@@ -48,7 +48,7 @@ impl Permutations {
     }
 }
 
-impl<S: Semantics> Histories<'_, S> {
+impl<S: Semantics> Histories<S> {
     /// The history with its replicas renamed.
     pub(super) fn image(&mut self, history: &History, permutation: usize) -> History {
         if permutation == 0 {
@@ -59,10 +59,10 @@ impl<S: Semantics> Histories<'_, S> {
         for (replica, &target) in to.iter().enumerate() {
             for made in 0..MUTATIONS_MAX {
                 let delta = history.deltas[replica][made];
-                image.deltas[target][made] = self.tables.rename_delta(self.semantics, delta, permutation, &to);
+                image.deltas[target][made] = self.tables.rename_delta(&self.semantics, delta, permutation, &to);
             }
             let last = history.last[replica];
-            image.last[target] = self.tables.rename_state(self.semantics, last, permutation, &to);
+            image.last[target] = self.tables.rename_state(&self.semantics, last, permutation, &to);
         }
         image
     }

@@ -47,9 +47,14 @@ pub(super) fn set_up(state: &mut State, cursor: &Cursor<'_>, scope: &Scope) -> R
     let named = NamedMutation::read(cursor, scope)?;
     let delta = {
         let view = view(state, &scope.dictionary);
-        let refused = |reason: String| cursor.fault(Fault::Setup { reason });
-        let mutation = named.resolve(&view).or_else(|error| refused(error.to_string()))?;
-        mutation.delta(&view, Author::new(ReplicaId::SCENE)).or_else(|error| refused(error.to_string()))?
+        let mutation = match named.resolve(&view) {
+            Ok(mutation) => mutation,
+            Err(error) => return cursor.fault(Fault::Setup { reason: error.to_string() }),
+        };
+        match mutation.delta(&view, Author::new(ReplicaId::SCENE)) {
+            Ok(delta) => delta,
+            Err(error) => return cursor.fault(Fault::Setup { reason: error.to_string() }),
+        }
     };
     state.join(&delta);
     Ok(())

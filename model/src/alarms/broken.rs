@@ -1,0 +1,247 @@
+//! A semantics broken in one place: `dsr-core` with one [`Flaw`].
+
+use super::shown::Shown;
+use super::shown_judge::judge_shown;
+use crate::algebra::{Algebra, Family, core_universe};
+use crate::checked::{Act, Checked, replica_id};
+use crate::semantics::{Breach, Semantics, Step, Witnesses};
+use dsr_core::{Author, Delta, Dot, Mutation, State, View, delta_for, digest, view};
+use std::fmt::Debug;
+use std::sync::Arc;
+
+/// One thing done wrongly. Every method does it rightly unless a flaw overrides it.
+pub trait Flaw: Send + Sync + Debug {
+    /// What join is before closure.
+    fn merge(&self, left: &State, right: &State) -> State {
+        let mut merged = left.clone();
+        merged.merge(right);
+        merged
+    }
+
+    /// What dies with its anchor.
+    fn close(&self, mut state: State) -> State {
+        state.close();
+        state
+    }
+
+    /// What a mutation broadcasts, or `None` when it is refused.
+    fn delta(&self, before: &View<'_>, author: Author, mutation: &Mutation) -> Option<Delta> {
+        mutation.delta(before, author).ok()
+    }
+
+    /// What the author itself makes of the mutation.
+    fn after(&self, before: &State, delta: &Delta) -> State {
+        self.close(self.merge(before, delta))
+    }
+
+    /// Under which index of the checker a replica mutates: the next incarnations of replica r are
+    /// r + [`INCARNATION`](crate::checked::INCARNATION), and so on.
+    fn identity(&self, replica: usize) -> usize {
+        replica
+    }
+
+    /// What `theirs` gets when it resynchronises with `ours`.
+    fn repair(&self, ours: &State, theirs: &State) -> Delta {
+        delta_for(ours, &digest(theirs))
+    }
+
+    /// What replica `here` shows.
+    fn show(&self, view: &View<'_>, here: usize) -> Shown {
+        let _ = here;
+        Shown::of(view)
+    }
+}
+
+/// The core as it ships: no flaw. No layer may raise an alarm.
+#[derive(Debug)]
+pub struct Sound;
+
+impl Flaw for Sound {}
+
+/// `dsr-core` with one flaw.
+#[derive(Clone, Debug)]
+pub struct Broken {
+    name: &'static str,
+    core: Checked,
+    flaw: Arc<dyn Flaw>,
+}
+
+/// The replicas whose views of one state are compared.
+const WATCHERS: std::ops::Range<usize> = 0..2;
+
+impl Broken {
+    /// The core `core` with a flaw.
+    pub fn new(name: &'static str, core: Checked, flaw: Arc<dyn Flaw>) -> Self {
+        Self { name, core, flaw }
+    }
+
+    fn joined(&self, left: &State, right: &State) -> State {
+        self.flaw.close(self.flaw.merge(left, right))
+    }
+
+    /// A local mutation breaks nothing by itself: who saw no repair before sees none after it.
+    /// `[property: VIEW-12]`
+    fn check_unrepaired(&self, before: &State, after: &State) -> Result<(), Breach> {
+        let (before, after) = (view(before, &self.core.dictionary), view(after, &self.core.dictionary));
+        match after.repairs() {
+            [repair, ..] if before.repairs().is_empty() => {
+                Err(Breach::new("VIEW-12", format_args!("after a local mutation: {repair}")))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// A delta speaks of the dots that it makes and of dots that its author held, of no others.
+    /// `[property: MUT-0.1]`
+    fn check_delta(before: &State, delta: &Delta) -> Result<(), Breach> {
+        let foreign = |dot: &Dot| !delta.holds(*dot) && !before.holds(*dot);
+        match delta.context().runs().flat_map(dsr_core::Run::dots).find(foreign) {
+            Some(dot) => Err(Breach::new("MUT-0.1", format_args!("the delta speaks of {dot}, which its author did not hold"))),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Semantics for Broken {
+    type State = State;
+    type Delta = Delta;
+    type Mutation = Act;
+
+    fn name(&self) -> String {
+        self.name.into()
+    }
+
+    fn initial(&self) -> State {
+        self.core.initial()
+    }
+
+    fn mutations(&self, state: &State, replica: usize) -> Vec<Act> {
+        self.core.mutations(state, self.flaw.identity(replica))
+    }
+
+    fn mutate(&self, state: &State, replica: usize, mutation: &Act) -> Option<Step<Self>> {
+        let author = Author::new(replica_id(self.flaw.identity(replica)));
+        let delta = self.flaw.delta(&view(state, &self.core.dictionary), author, &mutation.0)?;
+        let after = self.flaw.after(state, &delta);
+        Some(Step { delta, after })
+    }
+
+    fn join(&self, state: &State, delta: &Delta) -> State {
+        self.joined(state, delta)
+    }
+
+    fn repair(&self, ours: &State, theirs: &State) -> Option<Delta> {
+        Some(self.flaw.repair(ours, theirs))
+    }
+
+    fn join_states(&self, left: &State, right: &State) -> Option<State> {
+        Some(self.joined(left, right))
+    }
+
+    /// The predicates of the core on the state, and on what is shown of it, by each of two replicas; equal
+    /// states must have equal views on both. `[property: VIEW-1]`
+    fn judge(&self, state: &State) -> Result<Witnesses, Breach> {
+        let witnesses = self.core.judge(state)?;
+        let core_view = view(state, &self.core.dictionary);
+        let mut first: Option<Shown> = None;
+        for here in WATCHERS {
+            let shown = self.flaw.show(&core_view, here);
+            judge_shown(&shown, state, &self.core.dictionary)?;
+            match &first {
+                Some(first) if *first != shown => {
+                    return Err(Breach::new("VIEW-1", "two replicas show one state differently"));
+                }
+                Some(_) => {}
+                None => first = Some(shown),
+            }
+        }
+        Ok(witnesses)
+    }
+
+    fn judge_step(&self, before: &State, replica: usize, mutation: &Act, step: &Step<Self>) -> Result<(), Breach> {
+        if self.joined(before, &step.delta) != step.after {
+            return Err(Breach::new("MUT-0", "the author's state is not its old state joined with the delta"));
+        }
+        if self.joined(before, &step.after) != step.after {
+            return Err(Breach::new("JOIN-4", "the author's new state does not include its old one"));
+        }
+        Self::check_delta(before, &step.delta)?;
+        if before.joined(&step.delta) != step.after {
+            // The join itself is broken: the core's judgement of the step would compare with the right one.
+            return Ok(());
+        }
+        self.check_unrepaired(before, &step.after)?;
+        let step = Step { delta: step.delta.clone(), after: step.after.clone() };
+        self.core.judge_step(before, replica, mutation, &step)
+    }
+
+    fn judge_delivery(&self, before: &State, after: &State) -> Result<(), Breach> {
+        self.core.judge_delivery(before, after)
+    }
+
+    fn kind(&self, mutation: &Act) -> usize {
+        self.core.kind(mutation)
+    }
+
+    fn kinds(&self) -> Vec<&'static str> {
+        self.core.kinds()
+    }
+
+    fn kinds_in_use(&self) -> Vec<usize> {
+        self.core.kinds_in_use()
+    }
+
+    fn witnesses(&self) -> Vec<&'static str> {
+        self.core.witnesses()
+    }
+
+    fn is_order_sensitive(&self, _state: &State) -> bool {
+        true
+    }
+
+    fn rename_state(&self, state: &State, to: &[usize]) -> State {
+        self.core.rename_state(state, to)
+    }
+
+    fn rename_delta(&self, delta: &Delta, to: &[usize]) -> Delta {
+        self.core.rename_delta(delta, to)
+    }
+
+    fn changes(&self, before: &State, after: &State) -> Vec<String> {
+        self.core.changes(before, after)
+    }
+
+    fn mutation_json(&self, mutation: &Act) -> serde_json::Value {
+        self.core.mutation_json(mutation)
+    }
+
+    fn state_json(&self, state: &State) -> serde_json::Value {
+        self.core.state_json(state)
+    }
+
+    fn delta_json(&self, delta: &Delta) -> serde_json::Value {
+        self.core.delta_json(delta)
+    }
+}
+
+impl Algebra for Broken {
+    fn universe(&self, records: usize) -> Vec<Family<State>> {
+        core_universe(records)
+    }
+
+    fn body<'s>(&self, state: &'s State) -> Option<&'s State> {
+        Some(state)
+    }
+
+    fn delta_body<'d>(&self, delta: &'d Delta) -> Option<&'d State> {
+        Some(delta)
+    }
+
+    fn merge(&self, left: &State, right: &State) -> Option<State> {
+        Some(self.flaw.merge(left, right))
+    }
+
+    fn close(&self, state: &State) -> Option<State> {
+        Some(self.flaw.close(state.clone()))
+    }
+}

@@ -1,0 +1,223 @@
+//! What happened, as a list of steps. `[spec: SCEN-13]`
+
+use super::explore::Replicated;
+use super::memo::{DeltaId, MoveKind, StateId};
+use super::script::Conduct;
+use super::space::{Broken, Choice, Space};
+use serde::Serialize;
+use serde_json::Value as Json;
+use std::collections::BTreeSet;
+use std::fmt;
+
+/// A counterexample or a witness.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct Trace {
+    /// How many of the steps mutate; no trace to the same finding has fewer.
+    pub mutations: usize,
+    /// What happened, in order.
+    pub steps: Vec<ScenarioStep>,
+}
+
+/// One step of a trace.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+#[serde(tag = "step", rename_all = "snake_case")]
+pub enum ScenarioStep {
+    /// Deltas are delivered.
+    Receive {
+        /// To whom; `a reader` only reads.
+        replica: String,
+        /// Their numbers, in order of delivery.
+        deltas: Vec<usize>,
+    },
+    /// A mutation is made and broadcast.
+    Mutate {
+        /// By whom.
+        replica: String,
+        /// The step of its script, from 0.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        script_step: Option<usize>,
+        /// What is made, in the script's words.
+        text: Vec<String>,
+        /// What is made, with ids.
+        mutations: Vec<Json>,
+        /// The number of its delta, from 1.
+        number: usize,
+        /// Its delta.
+        delta: Json,
+    },
+    /// A guard holds that was waited for, or a step is left out, or a script ends early.
+    Go {
+        /// Whose.
+        replica: String,
+        /// The step of its script, from 0.
+        script_step: usize,
+        /// `passes`, `skips` or `stops`.
+        how: &'static str,
+    },
+    /// What somebody sees in the end, as changes of the initial graph.
+    See {
+        /// Who.
+        replica: String,
+        /// A line for each change.
+        changes: Vec<String>,
+    },
+    /// A clause is broken here.
+    Break {
+        /// The clause.
+        clause: &'static str,
+        /// How.
+        detail: String,
+    },
+}
+
+/// How a trace ends.
+#[derive(Clone, Debug)]
+pub(super) enum Last {
+    /// Somebody has received these and sees this.
+    View(StateId, Vec<DeltaId>),
+    /// Everybody receives everything and sees this.
+    End(StateId),
+    /// A clause is broken.
+    Broken(Broken),
+}
+
+/// Tells a way and its end.
+pub(super) fn tell<S: Replicated>(space: &Space<S>, way: &[Choice], last: Last) -> Trace {
+    let replicas = space.memo.scenario.replicas.len();
+    let mut teller = Teller { space, made: Vec::new(), known: vec![BTreeSet::new(); replicas], steps: Vec::new() };
+    for choice in way {
+        teller.choose(choice);
+    }
+    match last {
+        Last::View(state, seen) => teller.view(state, &seen.into_iter().collect()),
+        Last::End(state) => teller.end(state),
+        Last::Broken(broken) => teller.broken(broken),
+    }
+    let mutations = teller.steps.iter().filter(|step| matches!(step, ScenarioStep::Mutate { .. })).count();
+    Trace { mutations, steps: teller.steps }
+}
+
+const READER: &str = "a reader";
+
+struct Teller<'s, S> {
+    space: &'s Space<S>,
+    /// In order of their numbers.
+    made: Vec<DeltaId>,
+    /// Per replica, what it has received or made.
+    known: Vec<BTreeSet<DeltaId>>,
+    steps: Vec<ScenarioStep>,
+}
+
+impl<S: Replicated> Teller<'_, S> {
+    fn name(&self, replica: Option<usize>) -> String {
+        let replica = replica.and_then(|at| self.space.memo.scenario.replicas.get(at));
+        replica.map_or(READER, |replica| &replica.name).to_owned()
+    }
+
+    fn receive(&mut self, replica: Option<usize>, deltas: impl IntoIterator<Item = DeltaId>) {
+        let mut known = BTreeSet::new();
+        let known = replica.and_then(|at| self.known.get_mut(at)).unwrap_or(&mut known);
+        let new: Vec<DeltaId> = deltas.into_iter().filter(|&delta| known.insert(delta)).collect();
+        let number = |delta: &DeltaId| self.made.iter().position(|known| known == delta).map(|at| at + 1);
+        let deltas: Vec<usize> = new.iter().filter_map(number).collect();
+        if !deltas.is_empty() {
+            self.steps.push(ScenarioStep::Receive { replica: self.name(replica), deltas });
+        }
+    }
+
+    fn choose(&mut self, choice: &Choice) {
+        let Choice { replica, received, at, step } = choice;
+        self.receive(Some(*replica), received.iter().copied());
+        let (name, script_step) = (self.name(Some(*replica)), usize::from(at.step));
+        let how = match step.kind {
+            MoveKind::Mutates => return self.mutate(choice),
+            MoveKind::Passes => "passes",
+            MoveKind::Skips => "skips",
+            MoveKind::Stops => "stops",
+        };
+        self.steps.push(ScenarioStep::Go { replica: name, script_step, how });
+    }
+
+    fn mutate(&mut self, choice: &Choice) {
+        let Choice { replica, at, step, .. } = choice;
+        let Some(delta) = step.delta else { return };
+        let (script_step, text) = match &self.space.memo.scenario.replicas[*replica].conduct {
+            Conduct::Script(steps) => {
+                let at = usize::from(at.step);
+                (Some(at), steps[at].mutations.iter().map(ToString::to_string).collect())
+            }
+            Conduct::Free { .. } => (None, step.acts.iter().map(ToString::to_string).collect()),
+        };
+        if !self.made.contains(&delta) {
+            self.made.push(delta);
+        }
+        self.known[*replica].insert(delta);
+        let number = self.made.iter().position(|known| *known == delta).map_or(0, |at| at + 1);
+        self.steps.push(ScenarioStep::Mutate {
+            replica: self.name(Some(*replica)),
+            script_step,
+            text,
+            mutations: step.acts.iter().map(|act| json(&act.0)).collect(),
+            number,
+            delta: json(&*self.space.memo.delta(delta)),
+        });
+    }
+
+    fn see(&mut self, replica: String, state: StateId) {
+        let memo = &self.space.memo;
+        let changes = memo.semantics.changes(&memo.state(self.space.initial), &memo.state(state));
+        self.steps.push(ScenarioStep::See { replica, changes });
+    }
+
+    /// Somebody sees it: a replica that can have received just that, or else a reader.
+    fn view(&mut self, state: StateId, seen: &BTreeSet<DeltaId>) {
+        let can = |known: &&BTreeSet<DeltaId>| known.is_subset(seen);
+        let best = self.known.iter().enumerate().filter(|(_, known)| can(known)).max_by_key(|(_, known)| known.len());
+        let who = best.map(|(at, _)| at);
+        self.receive(who, seen.iter().copied());
+        self.see(self.name(who), state);
+    }
+
+    fn end(&mut self, state: StateId) {
+        for replica in 0..self.known.len() {
+            self.receive(Some(replica), self.made.clone());
+        }
+        self.see("everybody".into(), state);
+    }
+
+    fn broken(&mut self, broken: Broken) {
+        self.receive(broken.replica, broken.received);
+        self.steps.push(ScenarioStep::Break { clause: broken.breach.clause, detail: broken.breach.detail });
+    }
+}
+
+/// A value of the core as JSON; all of them have a form.
+fn json(value: &impl Serialize) -> Json {
+    serde_json::to_value(value).unwrap_or(Json::Null)
+}
+
+/// One line for each step.
+impl fmt::Display for Trace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.steps.iter().enumerate().try_for_each(|(at, step)| writeln!(f, "{:>3}. {step}", at + 1))
+    }
+}
+
+/// As in `camera: add_edge person -in-> bed (delta 1)`.
+impl fmt::Display for ScenarioStep {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Receive { replica, deltas } => {
+                let list: Vec<String> = deltas.iter().map(ToString::to_string).collect();
+                write!(f, "{replica} receives {} {}", if list.len() == 1 { "delta" } else { "deltas" }, list.join(", "))
+            }
+            Self::Mutate { replica, text, number, .. } => write!(f, "{replica}: {} (delta {number})", text.join("; ")),
+            Self::Go { replica, script_step, how } => write!(f, "{replica} {how} step {script_step}"),
+            Self::See { replica, changes } => {
+                write!(f, "{replica} sees")?;
+                changes.iter().try_for_each(|line| write!(f, "\n       {line}"))
+            }
+            Self::Break { clause, detail } => write!(f, "{clause} is broken: {detail}"),
+        }
+    }
+}

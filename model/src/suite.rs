@@ -1,0 +1,94 @@
+//! The suites: which runs `dsr check` makes by default, with `--deep`, and of a graph that it is given.
+
+use crate::checked::Checked;
+use crate::checked::alphabet::{ATTRIBUTE, Alphabet};
+use crate::focus::{self, FocusError};
+use crate::histories::{Bound, HistoryRun};
+use dsr_core::{Dictionary, MutationKind, State};
+use std::sync::Arc;
+
+/// The vertices of the embedded flat that searches focus on: each focus is the first few of them.
+pub const FLAT_FOCUS: [&str; 4] = ["bedroom", "person", "bed", "robot"];
+
+/// A graph, and the vertices in it that replicas touch.
+#[derive(Clone, Debug)]
+pub struct Subject<'a> {
+    /// The graph.
+    pub state: &'a State,
+    /// Its dictionary.
+    pub dictionary: &'a Dictionary,
+    /// Names of vertices, the focus being the first few.
+    pub names: &'a [&'a str],
+}
+
+impl Subject<'_> {
+    /// A run of L1 on the first `focus` vertices, with some kinds of mutation.
+    pub fn histories(
+        &self,
+        focus: usize,
+        bound: Bound,
+        kinds: &[MutationKind],
+        second_engine: bool,
+    ) -> Result<HistoryRun<Checked>, FocusError> {
+        let names = &self.names[..focus.min(self.names.len())];
+        let cut = focus::cut(self.state, self.dictionary, names, ATTRIBUTE)?;
+        let alphabet = Alphabet::of(kinds, cut.vertices);
+        let semantics = Checked { dictionary: self.dictionary.clone(), initial: cut.state, alphabet };
+        Ok(HistoryRun {
+            name: format!("{} × {}, {}", bound.replicas, bound.mutations, kinds_name(kinds)),
+            semantics: Arc::new(semantics),
+            focus: names.len(),
+            bound,
+            symmetry: true,
+            second_engine,
+        })
+    }
+
+    /// The default runs of L1. `[spec: CHECK-3]`
+    pub fn default_histories(&self) -> Result<Vec<HistoryRun<Checked>>, FocusError> {
+        let all = MutationKind::ALL;
+        let mut runs = vec![
+            self.histories(2, Bound { replicas: 2, mutations: 2 }, &all, true)?,
+            self.histories(4, Bound { replicas: 3, mutations: 1 }, &all, true)?,
+        ];
+        for pair in pairs() {
+            runs.push(self.histories(3, Bound { replicas: 2, mutations: 2 }, &pair, true)?);
+        }
+        for pair in pairs() {
+            runs.push(self.histories(2, Bound { replicas: 3, mutations: 2 }, &pair, true)?);
+        }
+        Ok(runs)
+    }
+
+    /// The runs of `--deep`, smallest first. `[spec: CHECK-3]`
+    pub fn deep_histories(&self) -> Result<Vec<HistoryRun<Checked>>, FocusError> {
+        use MutationKind as K;
+        let structural = [[K::MoveEdge, K::RemoveVertex], [K::AddVertex, K::RemoveVertex], [K::RemoveEdge, K::RemoveVertex]];
+        let bounds = [(2, 3), (4, 2), (3, 3)];
+        let mut runs = Vec::new();
+        for (replicas, mutations) in bounds {
+            for pair in structural {
+                runs.push(self.histories(2, Bound { replicas, mutations }, &pair, false)?);
+            }
+        }
+        runs.push(self.histories(3, Bound { replicas: 2, mutations: 2 }, &K::ALL, false)?);
+        for pair in pairs() {
+            runs.push(self.histories(2, Bound { replicas: 2, mutations: 3 }, &pair, false)?);
+        }
+        runs.push(self.histories(2, Bound { replicas: 3, mutations: 2 }, &K::ALL, false)?);
+        Ok(runs)
+    }
+}
+
+/// Every pair of different kinds.
+pub fn pairs() -> impl Iterator<Item = [MutationKind; 2]> {
+    let all = MutationKind::ALL;
+    (0..all.len()).flat_map(move |left| (left + 1..all.len()).map(move |right| [all[left], all[right]]))
+}
+
+fn kinds_name(kinds: &[MutationKind]) -> String {
+    if kinds.len() == MutationKind::ALL.len() {
+        return "all six".into();
+    }
+    kinds.iter().map(|kind| kind.name()).collect::<Vec<_>>().join(" + ")
+}
