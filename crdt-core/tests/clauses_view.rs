@@ -1,5 +1,7 @@
 //! The view: each rule, its repairs, order freedom, the invariants, and what an author may expect.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
+
 mod clauses_common;
 
 use clauses_common::history::{history, part, parts};
@@ -324,7 +326,7 @@ fn law_one_replica_alone_sees_every_effect_and_no_repair() {
 }
 
 /// Two replicas that meet now and then: the effect shows at once in states with conflicts too.
-/// [spec: INTENT-1] [spec: VIEW-9] [spec: VIEW-10] [spec: STATE-3]
+/// [spec: INTENT-1] [spec: VIEW-9] [spec: VIEW-10] [spec: STATE-3] [spec: MUT-4.2]
 #[test]
 fn law_effects_show_at_once_after_conflicts_too() {
     let mut with_repairs = 0;
@@ -346,6 +348,9 @@ fn law_effects_show_at_once_after_conflicts_too() {
             peer.state.join(&delta);
             check(&peer.state, &peer.dictionary);
             assert!(shows_effect(peer, &before, &mutation), "seed {seed}, step {step}: {mutation:?}");
+            let (was, new) = (before.view().stranded().to_vec(), VertexId(before.next()));
+            let stranded = peer.view().stranded().iter().all(|vertex| was.contains(vertex) || *vertex == new);
+            assert!(stranded, "seed {seed}, step {step}: {mutation:?} strands a vertex");
             with_repairs += usize::from(!before.repairs().is_empty());
         }
     }
@@ -385,6 +390,27 @@ fn oracle_an_effect_stays_while_others_do_other_things() {
             }
         }
     }
+}
+
+/// The note of the specification: a removed claim of a great stamp, and a later one of a small stamp.
+/// [spec: STAMP-1] [spec: INTENT-2]
+#[test]
+fn regress_without_its_removal_a_claim_may_outrank_its_successor() {
+    let mut author = Peer::new(1);
+    let (hall, kitchen) = (author.child(ROOT, "hall"), author.child(ROOT, "kitchen"));
+    let drone = author.linked("drone", "near", hall);
+    let mut reader = author.fork(2);
+    let mut deltas: Vec<_> = (0..4).map(|light| author.apply(&set(of(hall), "light", light))).collect();
+    deltas.push(author.apply(&edge(drone, "in", hall)));
+    let removal = author.apply(&remove(key(drone, "in", hall)));
+    deltas.push(author.apply(&unset(of(hall), "light")));
+    deltas.push(author.apply(&edge(drone, "in", kitchen)));
+    deltas.iter().for_each(|delta| reader.state.join(delta));
+    assert!(author.shows(drone, "in", kitchen));
+    assert!(reader.shows(drone, "in", hall), "the removed claim has the greater stamp");
+    assert_eq!(reader.repairs(), ["functional"], "and the view says that it hides another");
+    reader.state.join(&removal);
+    assert_eq!(reader.state, author.state);
 }
 
 /// The cup of the specification. [spec: INTENT-3]
