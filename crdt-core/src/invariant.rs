@@ -100,7 +100,7 @@ pub enum Violation {
     },
 }
 
-/// I1 to I5 and one claim shown per register. `[spec: INV-1]` to `[spec: INV-6]`
+/// I1 to I5 and one claim shown per register. `[property: INV-1]` to `[property: INV-6]`
 pub fn check_view(view: &View<'_>) -> Result<(), Violation> {
     check_no_dangling(view)?;
     check_no_self_loop(view)?;
@@ -111,7 +111,7 @@ pub fn check_view(view: &View<'_>) -> Result<(), Violation> {
 }
 
 /// I1: every vertex has a path to the root, over shown edges and the links that the repairs report,
-/// whatever their direction. `[spec: INV-1]`
+/// whatever their direction. `[property: INV-1]`
 pub fn check_paths(view: &View<'_>) -> Result<(), Violation> {
     let edges = view.edges().iter().map(|shown| (shown.edge.from, shown.edge.to));
     let links = view.repairs().iter().filter_map(|repair| match repair {
@@ -144,7 +144,7 @@ fn first_unreached(
     vertices.iter().zip(reached).find(|(_, reached)| !reached).map(|(&vertex, _)| vertex)
 }
 
-/// I2: every shown edge and write belongs to elements of the graph. `[spec: INV-2]`
+/// I2: every shown edge and write belongs to elements of the graph. `[property: INV-2]`
 pub fn check_no_dangling(view: &View<'_>) -> Result<(), Violation> {
     let present = |vertex: VertexId| vertex.is_root() || view.state().vertex(vertex.0).is_some();
     for shown in view.edges() {
@@ -165,7 +165,7 @@ pub fn check_no_dangling(view: &View<'_>) -> Result<(), Violation> {
 }
 
 /// I3: the shown `RT` edges and the reported detachments form one tree rooted at the root, with unique
-/// parents and no cycle. `[spec: INV-3]`
+/// parents and no cycle. `[property: INV-3]`
 pub fn check_tree(view: &View<'_>) -> Result<(), Violation> {
     let parents = unique_parents(view)?;
     let is_detached =
@@ -219,7 +219,7 @@ fn top_of(start: VertexId, edges: usize, parent: impl Fn(VertexId) -> Option<Ver
     None
 }
 
-/// I4: no edge joins a vertex to itself. `[spec: INV-4]`
+/// I4: no edge joins a vertex to itself. `[property: INV-4]`
 pub fn check_no_self_loop(view: &View<'_>) -> Result<(), Violation> {
     match view.edges().iter().find(|shown| shown.edge.from == shown.edge.to) {
         Some(shown) => Err(Violation::SelfLoop { edge: shown.id, vertex: shown.edge.to }),
@@ -227,7 +227,7 @@ pub fn check_no_self_loop(view: &View<'_>) -> Result<(), Violation> {
     }
 }
 
-/// I5: every shown attribute is declared, with the type of its value. `[spec: INV-5]`
+/// I5: every shown attribute is declared, with the type of its value. `[property: INV-5]`
 pub fn check_attributes(view: &View<'_>) -> Result<(), Violation> {
     for (_, write) in view.writes() {
         let given = write.value.value_type();
@@ -238,7 +238,7 @@ pub fn check_attributes(view: &View<'_>) -> Result<(), Violation> {
     Ok(())
 }
 
-/// One edge per key, and one per functional label of a source. `[spec: INV-6]`
+/// One edge per key, and one per functional label of a source. `[property: INV-6]`
 pub fn check_registers(view: &View<'_>) -> Result<(), Violation> {
     let mut shown: Vec<_> = view.edges().iter().map(|shown| (register_of(shown.edge, view.dictionary()), shown)).collect();
     shown.sort_unstable_by(|l, r| l.0.cmp(&r.0));
@@ -257,7 +257,7 @@ fn register_of<'e>(edge: &'e Edge, dictionary: &Dictionary) -> (VertexId, &'e st
 }
 
 /// V2: repairs are reported exactly where the live claims, taken as they are, break something.
-/// `[spec: VIEW-9]` `[spec: VIEW-10]`
+/// `[property: VIEW-9]` `[property: VIEW-10]`
 pub fn check_repairs(view: &View<'_>) -> Result<(), Violation> {
     match (broken_claim(view), view.repairs()) {
         (None, [repair, ..]) => Err(Violation::Needless { repair: repair.clone() }),
@@ -307,12 +307,12 @@ fn has_twins<T: Ord>(mut items: Vec<T>) -> bool {
     items.windows(2).any(|pair| pair[0] == pair[1])
 }
 
-/// Every record is live or pending, never dead: nothing is kept of what was removed. `[spec: STATE-6]`
+/// Every record is live or pending, never dead: nothing is kept of what was removed. `[property: STATE-6]`
 pub fn check_no_remains(state: &State) -> Result<(), crate::Malformed> {
     crate::check_well_formed(state)
 }
 
-/// What is removed stays removed: no dot dead in `before` is held in `after`. `[spec: STATE-3]`
+/// What is removed stays removed: no dot dead in `before` is held in `after`. `[property: STATE-3]`
 pub fn check_removal_is_final(before: &State, after: &State) -> Result<(), Dot> {
     match after.records().map(|(dot, _)| dot).find(|&dot| before.is_dead(dot)) {
         Some(dot) => Err(dot),

@@ -43,7 +43,7 @@ impl State {
         self.store.insert(dot, Arc::new(record));
     }
 
-    /// Marks a dot as seen and not held.
+    /// Marks a dot as seen and not held: nothing else is kept of it. `[spec: STATE-6]`
     pub(crate) fn kill(&mut self, dot: Dot) {
         self.context.insert(dot);
         self.store.remove(&dot);

@@ -405,7 +405,9 @@ fn regress_without_its_removal_a_claim_may_outrank_its_successor() {
     let removal = author.apply(&remove(key(drone, "in", hall)));
     deltas.push(author.apply(&unset(of(hall), "light")));
     deltas.push(author.apply(&edge(drone, "in", kitchen)));
-    deltas.iter().for_each(|delta| reader.state.join(delta));
+    for delta in &deltas {
+        reader.state.join(delta);
+    }
     assert!(author.shows(drone, "in", kitchen));
     assert!(reader.shows(drone, "in", hall), "the removed claim has the greater stamp");
     assert_eq!(reader.repairs(), ["functional"], "and the view says that it hides another");

@@ -1,4 +1,5 @@
 //! Attributes: each (target, name) is a multi-value register of its live writes. `[spec: VIEW-8]`
+//! `[spec: INV-5]`
 
 use super::{Repair, ShownEdge};
 use crate::dictionary::Dictionary;

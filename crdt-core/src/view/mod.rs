@@ -88,7 +88,7 @@ fn live_vertices(state: &State) -> Vec<VertexId> {
 }
 
 /// Every edge claim whose ends live, by dot: what is pending, or anchored to no vertex, is invisible.
-/// No dictionary hides a label. `[spec: VIEW-1.1]` `[spec: DICT-4]`
+/// No dictionary hides a label. `[spec: VIEW-1.1]` `[spec: DICT-4]` `[spec: INV-2]` `[spec: INV-4]`
 fn visible_edges<'s>(state: &'s State, vertices: &[VertexId]) -> Vec<ShownEdge<'s>> {
     let lives = |vertex: VertexId| vertices.binary_search(&vertex).is_ok();
     state

@@ -1,4 +1,4 @@
-//! Paths to the root, whatever the direction and label of the edges on them. `[spec: VIEW-5]`
+//! Paths to the root, whatever the direction and label of the edges on them. `[spec: VIEW-5]` `[spec: INV-1]`
 
 use super::union_find::UnionFind;
 use super::{Placement, Repair, ShownEdge};

@@ -1,4 +1,5 @@
 //! Symbolic edges: which of several competing claims is shown. `[spec: VIEW-2]` `[spec: VIEW-6]`
+//! `[spec: INV-6]`
 
 use super::{Repair, Rule, ShownEdge};
 use crate::dictionary::Dictionary;

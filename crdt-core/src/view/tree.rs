@@ -1,4 +1,5 @@
 //! The kinematic tree: one parent per vertex, no cycle, one root. `[spec: VIEW-3]` `[spec: VIEW-4]`
+//! `[spec: INV-3]`
 
 use super::union_find::UnionFind;
 use super::{Repair, Rule, ShownEdge};
