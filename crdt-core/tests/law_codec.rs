@@ -1,5 +1,6 @@
 //! The encodings: what is written is read back, what is read is what would be written, and nothing that
 //! anybody sends does harm.
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
 
 use dsr_core::{
     CausalContext, DecodeError, Digest, Dot, ReplicaId, Run, State, check_well_formed, decode, decode_digest,
@@ -91,7 +92,7 @@ fn law_every_string_of_small_bytes_is_canonical_or_refused() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
+    #![proptest_config(ProptestConfig::with_cases(8000))]
 
     /// `[spec: ENC-1]` `[spec: ENC-7]` `[spec: ENC-8]` `[spec: ENC-11]`
     #[test]

@@ -1,5 +1,6 @@
 //! The JSON forms: what is written is read back, one value has one text, and a text that spells no
 //! well-formed state is refused.
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
 #![cfg(feature = "serde")]
 
 use dsr_core::{
@@ -44,7 +45,7 @@ fn law_the_example_of_the_chapter_is_what_is_written() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1000))]
+    #![proptest_config(ProptestConfig::with_cases(3000))]
 
     /// `[spec: JSON-1]` `[spec: JSON-3]` `[spec: JSON-12]` `[spec: JSON-13]`
     #[test]

@@ -13,8 +13,8 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use std::collections::BTreeMap;
 
-/// What a state knows of a dot. `[spec: STATE-3]`
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+/// What a state knows of a dot, in the order in which it may change.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Fate {
     /// Not seen.
     Unseen,
@@ -49,29 +49,51 @@ impl Universe {
     /// The state in which the dots have these fates, in order; dots without one are unseen. What is held but
     /// anchored to the dead dies.
     pub fn state(&self, fates: &[Fate]) -> State {
-        let known = || self.records.iter().zip(fates);
-        let context: CausalContext =
-            known().filter(|(_, fate)| **fate != Fate::Unseen).map(|((&dot, _), _)| dot).collect();
-        let held = known().filter(|(_, fate)| **fate == Fate::Held);
-        let mut state = State::assemble(held.map(|((&dot, record), _)| (dot, record.clone())), context);
+        let mut state = self.unclosed(fates);
         state.close();
         state
     }
 
-    /// Every state over the universe: at most 3 to the number of records.
-    pub fn all_states(&self) -> Vec<State> {
+    /// The state in which the dots have just these fates, held records with dead anchors included: not
+    /// well-formed in general.
+    pub fn unclosed(&self, fates: &[Fate]) -> State {
+        let known = || self.records.iter().zip(fates);
+        let context: CausalContext =
+            known().filter(|(_, fate)| **fate != Fate::Unseen).map(|((&dot, _), _)| dot).collect();
+        let held = known().filter(|(_, fate)| **fate == Fate::Held);
+        State::assemble(held.map(|((&dot, record), _)| (dot, record.clone())), context)
+    }
+
+    /// Every choice of fates: 3 to the number of records.
+    pub fn all_fates(&self) -> impl Iterator<Item = Vec<Fate>> + '_ {
         let count = 3_usize.pow(u32::try_from(self.records.len()).unwrap_or(u32::MAX));
-        let mut states: Vec<State> = (0..count)
-            .map(|code| {
-                let digits = std::iter::successors(Some(code), |rest| Some(rest / 3));
-                let fates: Vec<Fate> =
-                    digits.take(self.records.len()).map(|rest| Fate::ALL[rest % 3]).collect();
-                self.state(&fates)
-            })
-            .collect();
+        (0..count).map(|code| {
+            let digits = std::iter::successors(Some(code), |rest| Some(rest / 3));
+            digits.take(self.records.len()).map(|rest| Fate::ALL[rest % 3]).collect()
+        })
+    }
+
+    /// Every closed state over the universe, once.
+    pub fn all_states(&self) -> Vec<State> {
+        let mut states: Vec<State> = self.all_fates().map(|fates| self.state(&fates)).collect();
         states.sort();
         states.dedup();
         states
+    }
+
+    /// The universe of the records of a state.
+    pub fn of(state: &State) -> Self {
+        Self { records: state.records().map(|(dot, record)| (dot, record.clone())).collect() }
+    }
+
+    /// What a state knows of each dot, in order.
+    pub fn fates_in(&self, state: &State) -> Vec<Fate> {
+        let fate = |&dot: &Dot| match (state.holds(dot), state.context().contains(dot)) {
+            (true, _) => Fate::Held,
+            (false, true) => Fate::Dead,
+            (false, false) => Fate::Unseen,
+        };
+        self.records.keys().map(fate).collect()
     }
 }
 
@@ -90,7 +112,7 @@ struct Seed {
 
 fn seed() -> impl Strategy<Value = Seed> {
     (
-        prop_oneof![4 => Just(0_u8), 4 => Just(1), 2 => Just(2)],
+        prop_oneof![3 => Just(0_u8), 5 => Just(1), 2 => Just(2)],
         any::<(Index, Index)>(),
         atoms::label(),
         (atoms::name(), atoms::name()),
@@ -118,10 +140,21 @@ pub fn universes(records_max: usize, anchors: Anchors) -> impl Strategy<Value = 
 
 /// Some states over one universe.
 pub fn states(count: usize, records_max: usize, anchors: Anchors) -> impl Strategy<Value = Vec<State>> {
-    let fate = prop_oneof![1 => Just(Fate::Unseen), 3 => Just(Fate::Held), 1 => Just(Fate::Dead)];
-    let fates = vec(vec(fate, records_max), count);
-    (universes(records_max, anchors), fates)
+    fates(count, records_max, anchors)
         .prop_map(|(universe, fates)| fates.iter().map(|fates| universe.state(fates)).collect())
+}
+
+/// A universe and the fates that some states give to its dots, not closed.
+pub fn fates(
+    count: usize,
+    records_max: usize,
+    anchors: Anchors,
+) -> impl Strategy<Value = (Universe, Vec<Vec<Fate>>)> {
+    (universes(records_max, anchors), vec(vec(fate(), records_max), count))
+}
+
+fn fate() -> impl Strategy<Value = Fate> {
+    prop_oneof![1 => Just(Fate::Unseen), 6 => Just(Fate::Held), 1 => Just(Fate::Dead)]
 }
 
 /// A dot that no state over any universe has seen.
@@ -137,13 +170,17 @@ fn grow(seeds: &BTreeMap<Dot, Seed>, anchors: Anchors) -> Universe {
     Universe { records: records.collect() }
 }
 
-/// One of the dots, the root, or rarely a dot that never comes; never `own`.
+/// One of the dots, often one of the first two so that claims compete; the root; or rarely a dot that never
+/// comes; never `own`.
 fn pick(index: Index, dots: &[Dot], own: Dot) -> Dot {
     let others: Vec<Dot> = dots.iter().copied().filter(|&dot| dot != own).collect();
-    match index.index(others.len() * 8 + 9) {
+    let choice = index.index(1 << 16);
+    match choice % 16 {
         0 => NOWHERE,
-        at if at < 9 || others.is_empty() => VertexId::ROOT.0,
-        at => others[at % others.len()],
+        1..=3 => VertexId::ROOT.0,
+        _ if others.is_empty() => VertexId::ROOT.0,
+        4..=10 => others[choice / 16 % others.len().min(2)],
+        _ => others[choice / 16 % others.len()],
     }
 }
 

@@ -30,10 +30,9 @@ impl World {
         }
     }
 
-    /// The author of a replica; its clock counts what it knows.
+    /// The author of a replica, by its number from 0; its clock shows the greatest stamp that it holds.
     pub fn author(&self, replica: usize) -> Author {
-        let agent = u32::try_from(replica + 1).unwrap_or(u32::MAX);
-        Author { replica: ReplicaId::agent(agent), timestamp_ns: self.known[replica].len() as u64 }
+        author(replica, &self.states[replica])
     }
 
     /// Lets a replica mutate, and sends the delta to nobody yet.
@@ -94,4 +93,10 @@ impl World {
     pub fn expected(&self, replica: usize) -> State {
         self.known[replica].iter().fold(State::new(), |state, &delta| state.joined(&self.sent[delta]))
     }
+}
+
+/// The author of a replica, by its number from 0, with its state for a clock.
+pub fn author(replica: usize, state: &State) -> Author {
+    let agent = u32::try_from(replica + 1).unwrap_or(u32::MAX);
+    Author { replica: ReplicaId::agent(agent), timestamp_ns: state.greatest_stamp() }
 }
