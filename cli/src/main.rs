@@ -1,5 +1,6 @@
 //! The `dsr` command: checks, shows and converts Deep State Representation graphs.
 
+mod check;
 mod input;
 mod output;
 mod scene;
@@ -20,6 +21,7 @@ struct Arguments {
 // One line per subcommand, in the order of `--help`; each has its own module of that name.
 #[derive(Subcommand, Debug)]
 enum Command {
+    Check(check::Arguments),
     /// Checks, shows, converts and compares scenes: graph files of the published system
     #[command(subcommand)]
     Scene(scene::Command),
@@ -28,6 +30,7 @@ enum Command {
 impl Command {
     fn run(&self) -> Status {
         match self {
+            Self::Check(arguments) => arguments.run(),
             Self::Scene(command) => command.run(),
         }
     }

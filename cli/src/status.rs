@@ -18,7 +18,8 @@ pub(crate) enum Status {
     Claimed = 0,
     /// Violated.
     Violated = 1,
-    // 2 is *incomplete*: no command that exists yet has a bound to reach.
+    /// Incomplete: a bound was reached before the answer.
+    Incomplete = 2,
     /// Wrong usage or input.
     Usage = 3,
 }

@@ -1,12 +1,15 @@
 //! Exhaustive checking of concurrent replicas.
 
+pub mod alarms;
 pub mod algebra;
 pub mod checked;
 pub mod engine;
 pub mod focus;
 pub mod histories;
+pub mod job;
 pub mod progress;
 pub mod scenario;
+pub mod schedules;
 pub mod semantics;
 pub mod suite;
 pub mod tables;

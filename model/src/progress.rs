@@ -58,6 +58,11 @@ impl Progress {
         (self.expanded.load(Relaxed), self.generated.load(Relaxed), self.judged.load(Relaxed), self.depth.load(Relaxed))
     }
 
+    /// The run's limits.
+    pub fn limits(&self) -> Limits {
+        self.limits
+    }
+
     /// Tells the run to stop.
     pub fn stop(&self) {
         self.stop.store(true, Relaxed);

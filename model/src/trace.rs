@@ -5,6 +5,7 @@ use crate::engine::Counterexample;
 use crate::histories::{Choice, FoundFault, Histories};
 use crate::semantics::{Breach, Semantics};
 use crate::tables::{DeltaId, StateId};
+use crate::verdict::RunTrace;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -219,6 +220,14 @@ fn replica_name(replica: usize) -> String {
 
 fn observer_name(observer: usize) -> String {
     format!("observer {}", observer + 1)
+}
+
+impl From<Trace> for RunTrace {
+    fn from(trace: Trace) -> Self {
+        let json = serde_json::to_value(&trace).unwrap_or_default();
+        let TraceBreach { clause, detail, .. } = trace.breach.clone();
+        Self { clause, detail, steps: trace.steps.len(), text: trace.to_string(), json }
+    }
 }
 
 /// Prints a trace for people: a line per step, what changed below it, the broken clause last.

@@ -149,7 +149,59 @@ pub struct RunReport {
     pub notes: Vec<String>,
     /// Counterexamples.
     #[serde(skip)]
-    pub traces: Vec<crate::trace::Trace>,
+    pub traces: Vec<RunTrace>,
+}
+
+/// A counterexample, for people and for programs.
+#[derive(Clone, PartialEq, Debug)]
+pub struct RunTrace {
+    /// The clause that breaks, or the name of a scenario's property.
+    pub clause: String,
+    /// What is wrong, with the values.
+    pub detail: String,
+    /// How many steps lead there.
+    pub steps: usize,
+    /// For people.
+    pub text: String,
+    /// For programs.
+    pub json: serde_json::Value,
+}
+
+impl RunReport {
+    /// A report without counts and properties, to be filled in.
+    pub fn new(name: String, layer: &str, semantics: String, seconds: f64) -> Self {
+        Self {
+            name,
+            layer: layer.into(),
+            semantics,
+            replicas: 0,
+            mutations: 0,
+            focus: 0,
+            operations: 0,
+            states: StateCounts::default(),
+            seconds,
+            verdict: Verdict::Vacuous,
+            properties: Vec::new(),
+            second_engine: None,
+            collision_bound: 0.0,
+            notes: Vec::new(),
+            traces: Vec::new(),
+        }
+    }
+}
+
+impl PropertyReport {
+    /// A clause that holds everywhere.
+    pub fn always(clause: &str, claim: &str, what: &str) -> Self {
+        Self {
+            clause: clause.into(),
+            kind: PropertyKind::Always,
+            verdict: Verdict::Exhaustive,
+            claim: claim.into(),
+            what: what.into(),
+            trace: None,
+        }
+    }
 }
 
 /// The chance that two of `unique` states share one 64-bit fingerprint: at most n²/2⁶⁵.

@@ -5,7 +5,9 @@ use crate::engine;
 use crate::progress::Progress;
 use crate::semantics::{Breach, Semantics};
 use crate::trace::{Trace, TraceWriter};
-use crate::verdict::{Evidence, PropertyKind, PropertyReport, RunReport, StateCounts, Verdict, collision_bound};
+use crate::verdict::{
+    Evidence, PropertyKind, PropertyReport, RunReport, RunTrace, StateCounts, Verdict, collision_bound,
+};
 use stateright::{Checker, Model};
 use std::sync::Arc;
 
@@ -111,26 +113,23 @@ impl<S: Semantics + 'static> HistoryRun<S> {
             expanded: outcome.expanded,
             unseen: outcome.seen.iter().filter(|(_, seen)| !seen).count(),
         };
-        let traces: Vec<Trace> = breach.iter().filter_map(|_| self.counterexample()).collect();
+        let traces: Vec<RunTrace> = breach.iter().filter_map(|_| self.counterexample()).map(RunTrace::from).collect();
         if let Some(breach) = &breach {
             notes.push(format!("[{}] {}", breach.clause, breach.detail));
         }
         RunReport {
-            name: self.name.clone(),
-            layer: "L1".into(),
-            semantics: self.semantics.name(),
             replicas: self.bound.replicas,
             mutations: self.bound.mutations,
             focus: self.focus,
             operations: self.operations(),
             states: outcome.counts,
-            seconds: progress.seconds(),
             verdict: Verdict::of(evidence),
             properties: self.properties(evidence, breach.as_ref(), &outcome.seen),
             second_engine: outcome.second,
             collision_bound: collision_bound(outcome.counts.unique),
             notes,
             traces,
+            ..RunReport::new(self.name.clone(), "L1", self.semantics.name(), progress.seconds())
         }
     }
 
@@ -139,26 +138,16 @@ impl<S: Semantics + 'static> HistoryRun<S> {
         let always = self.semantics.clauses().into_iter().map(|clause| {
             let violated = breach.is_some_and(|breach| breach.clause == clause.id);
             let verdict = Verdict::of(Evidence { violated, cut: !complete, unseen: 0, ..evidence });
-            PropertyReport {
-                clause: clause.id.into(),
-                kind: PropertyKind::Always,
-                verdict,
-                claim: clause.claim.into(),
-                what: clause.what.into(),
-                trace: None,
-            }
+            PropertyReport { verdict, ..PropertyReport::always(clause.id, clause.claim, clause.what) }
         });
         let sometimes = seen.iter().map(|(witness, seen)| PropertyReport {
-            clause: witness.clone(),
             kind: PropertyKind::Sometimes,
             verdict: match (seen, complete) {
                 (true, _) => Verdict::Exhaustive,
                 (false, true) => Verdict::Vacuous,
                 (false, false) => Verdict::Bounded,
             },
-            claim: String::new(),
-            what: String::new(),
-            trace: None,
+            ..PropertyReport::always(witness, "", "")
         });
         always.chain(sometimes).collect()
     }

@@ -1,0 +1,168 @@
+//! `dsr check`: what happens to a graph when several agents edit it at once.
+
+mod live;
+mod plan;
+mod report;
+
+use crate::output::{err, out};
+use crate::status::Status;
+use dsr_core::MutationKind;
+use dsr_model::progress::Limits;
+use dsr_model::verdict::{RunReport, Verdict};
+use serde_json::json;
+use std::path::{Path, PathBuf};
+
+const ABOUT: &str = "\
+Without FILE, checks the checked semantics on the embedded flat: the algebra of states (L0), histories of
+concurrent mutations (L1), schedules of a lossy network (L2) and every shipped scenario.
+
+With FILE, a scene is checked by L1 on some of its vertices, and a scenario is explored in all its
+interleavings and deliveries.";
+
+const EXAMPLES: &str = "\
+Examples:
+  dsr check                                          the default suite
+  dsr check --layer scenario                         the shipped scenarios only
+  dsr check @tiny --focus robot,cup --mutations 1    two replicas on two vertices of a scene
+  dsr check my.scenario.json                         a scenario of your own
+  dsr check --deep --seconds-max 1800                as far as it goes in half an hour a run
+
+Verdicts:
+  exhaustive  every state within the bound was judged, and all is well
+  bounded     all is well as far as the run went; it stopped before its bound
+  vacuous     complete, but something that had to be seen never occurred
+  violated    a clause does not hold; a trace shows the shortest way there
+
+Exit status: 0 exhaustive, 1 violated, 2 bounded or vacuous, 3 wrong usage or input";
+
+/// Arguments of `dsr check`.
+#[derive(clap::Args, Debug)]
+#[command(about = "Checks what concurrent agents can do to a graph", long_about = ABOUT, after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    /// Scenes or scenarios: files, `@flat` or `@tiny`
+    files: Vec<String>,
+    /// The vertices that replicas touch, by name, separated by commas; for scenes
+    #[arg(long, value_delimiter = ',')]
+    focus: Vec<String>,
+    /// Replicas, 1 to 4; for scenes
+    #[arg(long, default_value_t = 2, value_parser = clap::value_parser!(u8).range(1..=4))]
+    replicas: u8,
+    /// Mutations of each replica, 1 to 4; for scenes
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=4))]
+    mutations: u8,
+    /// Kinds of mutation, separated by commas, or `all`; for scenes
+    #[arg(long, value_delimiter = ',', default_value = "all", value_parser = kind)]
+    alphabet: Vec<Kinds>,
+    /// Layers of the suite, separated by commas
+    #[arg(long, value_delimiter = ',', value_enum)]
+    layer: Vec<Layer>,
+    /// Larger bounds instead of the default ones: takes long
+    #[arg(long)]
+    deep: bool,
+    /// The dictionary of the scenes: a file, `published`, `aal` or `open`
+    #[arg(long, default_value = "open")]
+    dictionary: String,
+    /// How the result is printed
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+    /// Where counterexamples are written; the directory is made when there is one
+    #[arg(long, default_value = "dsr-traces")]
+    traces: PathBuf,
+    /// Stops a run after this many seconds; its verdict is then `bounded`
+    #[arg(long, default_value_t = f64::INFINITY)]
+    seconds_max: f64,
+    /// Stops a run after this many states; its verdict is then `bounded`
+    #[arg(long, default_value_t = u64::MAX, hide_default_value = true)]
+    states_max: u64,
+    /// Runs at a time; each uses one core
+    #[arg(long, default_value_t = 2, value_parser = clap::value_parser!(u8).range(1..=64))]
+    jobs: u8,
+}
+
+/// A layer of the checker.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
+pub(crate) enum Layer {
+    /// Every law over every small state
+    L0,
+    /// Histories of concurrent mutations
+    L1,
+    /// Schedules of a lossy network
+    L2,
+    /// Scenarios of agents
+    Scenario,
+}
+
+/// How a result is printed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
+pub(crate) enum Format {
+    /// For people
+    Text,
+    /// For programs
+    Json,
+}
+
+/// A kind of mutation, or all.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct Kinds(Vec<MutationKind>);
+
+fn kind(text: &str) -> Result<Kinds, String> {
+    if text == "all" {
+        return Ok(Kinds(MutationKind::ALL.into()));
+    }
+    MutationKind::from_name(text).map(|kind| Kinds(vec![kind])).ok_or_else(|| {
+        let names: Vec<&str> = MutationKind::ALL.into_iter().map(MutationKind::name).collect();
+        format!("expected `all` or some of {}", names.join(", "))
+    })
+}
+
+impl Arguments {
+    /// Plans, runs and reports.
+    pub(crate) fn run(&self) -> Status {
+        let jobs = match plan::jobs(self) {
+            Ok(jobs) => jobs,
+            Err(error) => {
+                err(error);
+                return Status::Usage;
+            }
+        };
+        let limits = Limits { states_max: self.states_max, seconds_max: self.seconds_max };
+        let started = std::time::Instant::now();
+        let mut runs = live::run_all(jobs, limits, usize::from(self.jobs));
+        let traces = write_traces(&mut runs, &self.traces);
+        let verdict = runs.iter().map(|run| run.verdict).max().unwrap_or(Verdict::Vacuous);
+        match self.format {
+            Format::Json => {
+                let text = serde_json::to_string_pretty(&json!({ "verdict": verdict, "runs": runs }));
+                out(&format!("{}\n", text.unwrap_or_default()));
+            }
+            Format::Text => out(&report::text(&runs, verdict, started.elapsed().as_secs_f64())),
+        }
+        match (traces, verdict) {
+            (Err(error), _) => {
+                err(error);
+                Status::Usage
+            }
+            (_, Verdict::Exhaustive) => Status::Claimed,
+            (_, Verdict::Violated) => Status::Violated,
+            _ => Status::Incomplete,
+        }
+    }
+}
+
+/// Writes each counterexample to a file of its own and names it in the report.
+fn write_traces(runs: &mut [RunReport], directory: &Path) -> Result<(), String> {
+    let mut number = 0;
+    for run in runs {
+        for trace in run.traces.clone() {
+            number += 1;
+            let file = directory.join(format!("{number:02}-{}.trace.json", trace.clause));
+            let text = serde_json::to_string_pretty(&trace.json).unwrap_or_default();
+            let written = std::fs::create_dir_all(directory).and_then(|()| std::fs::write(&file, text));
+            written.map_err(|error| format!("cannot write {}: {error}; name another directory with --traces", file.display()))?;
+            for property in run.properties.iter_mut().filter(|property| property.clause == trace.clause) {
+                property.trace = Some(file.display().to_string());
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,99 @@
+//! Which runs the arguments ask for.
+
+use super::{Arguments, Layer};
+use crate::input::{self, InputError};
+use dsr_core::scene::{FLAT, Scene, Strictness};
+use dsr_core::{Dictionary, MutationKind};
+use dsr_model::histories::Bound;
+use dsr_model::job::{AlgebraRun, Job, ScenarioRun};
+use dsr_model::scenario::{Scenario, shipped};
+use dsr_model::suite::{FLAT_FOCUS, Subject};
+use std::path::Path;
+use std::sync::Arc;
+
+/// Replicas touch this many vertices of a scene unless `--focus` names them.
+const FOCUS_DEFAULT: usize = 2;
+
+/// Runs, the longest first, so that two cores are busy to the end.
+pub(super) fn jobs(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
+    if arguments.files.is_empty() {
+        if !arguments.focus.is_empty() {
+            return Err("--focus needs a scene: name a file, or @flat".into());
+        }
+        return suite(arguments);
+    }
+    arguments.files.iter().map(|file| of_file(arguments, file)).collect()
+}
+
+fn suite(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
+    let wanted = |layer: Layer| arguments.layer.is_empty() || arguments.layer.contains(&layer);
+    let dictionary = Dictionary::aal();
+    let scene = Scene::read(FLAT, &dictionary, Strictness::Strict).map_err(|error| error.to_string())?.scene;
+    let subject = Subject { state: &scene.state, dictionary: &dictionary, names: &FLAT_FOCUS };
+    let mut jobs: Vec<Box<dyn Job>> = Vec::new();
+    if wanted(Layer::L1) {
+        let histories = if arguments.deep { subject.deep_histories() } else { subject.default_histories() };
+        for run in histories.map_err(|error| error.to_string())? {
+            jobs.push(Box::new(run));
+        }
+    }
+    if wanted(Layer::L0) {
+        let semantics = subject.histories(FOCUS_DEFAULT, Bound { replicas: 2, mutations: 1 }, &MutationKind::ALL, true);
+        let semantics = semantics.map_err(|error| error.to_string())?.semantics;
+        let records = if arguments.deep { vec![5] } else { vec![4, 3] };
+        for records in records {
+            jobs.push(Box::new(AlgebraRun { semantics: Arc::clone(&semantics), records }));
+        }
+    }
+    if wanted(Layer::Scenario) {
+        for (file, text) in shipped() {
+            let scenario = Scenario::read(text, file).map_err(|error| error.to_string())?;
+            jobs.push(Box::new(ScenarioRun { scenario }));
+        }
+    }
+    Ok(jobs)
+}
+
+/// A scenario says so by its `format`; everything else is a scene.
+fn of_file(arguments: &Arguments, file: &str) -> Result<Box<dyn Job>, String> {
+    let is_embedded = file.starts_with('@');
+    if !is_embedded && is_scenario(file) {
+        let scenario = Scenario::open(Path::new(file)).map_err(|error| error.to_string())?;
+        return Ok(Box::new(ScenarioRun { scenario }));
+    }
+    let explain = |error: InputError| format!("{file}: {error}: {}", error.remedy());
+    let dictionary = input::dictionary(&arguments.dictionary).map_err(|error| {
+        format!("--dictionary {}: {error}: {}", arguments.dictionary, error.remedy())
+    })?;
+    let scene = match input::load(file, &dictionary, Strictness::Strict) {
+        Ok(loaded) => loaded.scene,
+        Err(InputError::Refused(refused)) => {
+            let faults = refused.faults.iter().map(|fault| format!("{file}: {fault}"));
+            let lines: Vec<String> = faults.chain([format!("{file}: refused; see `dsr scene check {file}`")]).collect();
+            return Err(lines.join("\n"));
+        }
+        Err(error) => return Err(explain(error)),
+    };
+    let graph = dsr_core::view(&scene.state, &dictionary);
+    let first = graph.vertices().iter().filter_map(|&vertex| graph.vertex(vertex)).map(|vertex| &*vertex.name);
+    let names: Vec<&str> = if arguments.focus.is_empty() {
+        first.take(FOCUS_DEFAULT).collect()
+    } else {
+        arguments.focus.iter().map(String::as_str).collect()
+    };
+    let subject = Subject { state: &scene.state, dictionary: &dictionary, names: &names };
+    let bound = Bound { replicas: arguments.replicas.into(), mutations: arguments.mutations.into() };
+    let mut kinds: Vec<MutationKind> = arguments.alphabet.iter().flat_map(|kinds| kinds.0.clone()).collect();
+    kinds.sort_unstable();
+    kinds.dedup();
+    let mut run = subject.histories(names.len(), bound, &kinds, true).map_err(|error| format!("{file}: {error}"))?;
+    run.name = format!("{file} [{}]: {}", names.join(", "), run.name);
+    Ok(Box::new(run))
+}
+
+fn is_scenario(file: &str) -> bool {
+    const HEAD_BYTES: usize = 4096;
+    let Ok(text) = std::fs::read(file) else { return false };
+    let head = String::from_utf8_lossy(&text[..text.len().min(HEAD_BYTES)]).into_owned();
+    head.contains("dsr-scenario")
+}

@@ -1,0 +1,159 @@
+//! The result for people: runs, clauses, witnesses, and what it does and does not mean.
+
+use crate::output::add;
+use dsr_model::verdict::{PropertyKind, RunReport, Verdict};
+use std::collections::BTreeMap;
+
+/// What every run takes for granted; see `spec/network.md`.
+const ASSUMED: [&str; 4] = [
+    "replicas start from the same graph and use the same dictionary",
+    "authors follow the specification: no dot is used twice, nobody forges deltas",
+    "deltas arrive whole; they may be lost, repeated and reordered without limit",
+    "L1 fuses deliveries into mutations; that deltas commute is checked in every delivered subset, not assumed",
+];
+
+/// What no run shows.
+const NOT_CHECKED: [&str; 5] = [
+    "anything beyond the bounds above: more replicas, mutations, or elements in focus",
+    "values: one value stands for all, since the semantics compares ranks and never looks into values",
+    "duplicate delivery and resynchronisation in L1 beyond sets of two deltas (L0 and L2 judge them in general)",
+    "liveness: that deltas do arrive is the transport's task",
+    "the proof of the unbounded case: see the claims table in README.md for what is proved and what is not",
+];
+
+/// The whole report.
+pub(super) fn text(runs: &[RunReport], verdict: Verdict, seconds: f64) -> String {
+    let mut text = String::new();
+    add_runs(&mut text, runs);
+    add_clauses(&mut text, runs);
+    add_witnesses(&mut text, runs);
+    add_traces(&mut text, runs);
+    add_box(&mut text, runs, verdict, seconds);
+    text
+}
+
+fn add_runs(text: &mut String, runs: &[RunReport]) {
+    let width = runs.iter().map(|run| run.name.chars().count()).max().unwrap_or(0).max(4);
+    add(text, format_args!(
+        "{:<8} {:<width$} {:>5} {:>4} {:>10} {:>11} {:>11} {:>7}  verdict\n",
+        "layer", "run", "focus", "ops", "unique", "generated", "judged", "s"
+    ));
+    for run in runs {
+        add(text, format_args!(
+            "{:<8} {:<width$} {:>5} {:>4} {:>10} {:>11} {:>11} {:>7.1}  {}{}\n",
+            run.layer,
+            run.name,
+            or_dash(run.focus),
+            or_dash(run.operations),
+            run.states.unique,
+            run.states.generated,
+            run.states.judged,
+            run.seconds,
+            run.verdict,
+            if run.second_engine.is_some() { ", both engines" } else { "" },
+        ));
+        let remarkable = run.verdict != Verdict::Exhaustive;
+        for note in run.notes.iter().filter(|_| remarkable) {
+            add(text, format_args!("{:<8} {note}\n", ""));
+        }
+    }
+}
+
+fn or_dash(count: usize) -> String {
+    if count == 0 { "-".into() } else { count.to_string() }
+}
+
+/// What all runs together say of one clause.
+struct ClauseLine<'r> {
+    claim: &'r str,
+    what: &'r str,
+    verdict: Verdict,
+    runs: usize,
+    judged: u64,
+    layers: Vec<&'r str>,
+    trace: Option<&'r str>,
+}
+
+fn add_clauses(text: &mut String, runs: &[RunReport]) {
+    let mut clauses: BTreeMap<(&str, &str), ClauseLine<'_>> = BTreeMap::new();
+    for run in runs {
+        for property in run.properties.iter().filter(|property| property.kind == PropertyKind::Always) {
+            let group = if run.layer == "scenario" { run.name.as_str() } else { "" };
+            let line = clauses.entry((group, &property.clause)).or_insert(ClauseLine {
+                claim: &property.claim,
+                what: &property.what,
+                verdict: Verdict::Exhaustive,
+                runs: 0,
+                judged: 0,
+                layers: Vec::new(),
+                trace: None,
+            });
+            line.verdict = line.verdict.max(property.verdict);
+            line.runs += 1;
+            line.judged += run.states.judged;
+            if line.claim.is_empty() {
+                line.claim = &property.claim;
+            }
+            if !line.layers.contains(&run.layer.as_str()) {
+                line.layers.push(&run.layer);
+            }
+            line.trace = line.trace.or(property.trace.as_deref());
+        }
+    }
+    add(text, format_args!("\n{:<6} {:<22} {:<11} {:>4} {:>12}  what must always hold\n", "claim", "clause", "verdict", "runs", "states"));
+    let mut last = "";
+    for ((group, clause), line) in clauses {
+        if group != last {
+            add(text, format_args!("scenario {group}\n"));
+            last = group;
+        }
+        let claim = if line.claim.is_empty() { "-" } else { line.claim };
+        add(text, format_args!(
+            "{claim:<6} {clause:<22} {:<11} {:>4} {:>12}  {} ({})\n",
+            line.verdict, line.runs, line.judged, line.what, line.layers.join(", ")
+        ));
+        if let Some(trace) = line.trace {
+            add(text, format_args!("{:<6} counterexample: {trace}\n", ""));
+        }
+    }
+}
+
+fn add_witnesses(text: &mut String, runs: &[RunReport]) {
+    let mut seen: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
+    for run in runs {
+        for property in run.properties.iter().filter(|property| property.kind == PropertyKind::Sometimes) {
+            let counts = seen.entry(&property.clause).or_default();
+            counts.0 += usize::from(property.verdict == Verdict::Exhaustive);
+            counts.1 += 1;
+        }
+    }
+    add(text, "\nseen (runs that saw it / runs that had to or did)\n");
+    for (witness, (saw, asked)) in seen {
+        add(text, format_args!("  {:<58} {saw}/{asked}\n", witness));
+    }
+}
+
+fn add_traces(text: &mut String, runs: &[RunReport]) {
+    for run in runs {
+        for trace in &run.traces {
+            add(text, format_args!("\n{} {}: a shortest way to break {}\n{}\n", run.layer, run.name, trace.clause, trace.text));
+        }
+    }
+}
+
+fn add_box(text: &mut String, runs: &[RunReport], verdict: Verdict, seconds: f64) {
+    let unique: u64 = runs.iter().map(|run| run.states.unique).sum();
+    let judged: u64 = runs.iter().map(|run| run.states.judged).sum();
+    let collision: f64 = runs.iter().map(|run| run.collision_bound).sum();
+    add(text, format_args!("\n── verdict: {verdict} ──────────────────────────────────────────────\n"));
+    add(text, format_args!("{} runs, {unique} states, {judged} replica states judged, {seconds:.1} s\n", runs.len()));
+    add(text, format_args!("a fingerprint collision may have hidden a state with a chance of at most {collision:.1e}\n"));
+    add(text, "assumed:\n");
+    for line in ASSUMED {
+        add(text, format_args!("  · {line}\n"));
+    }
+    add(text, "not checked:\n");
+    for line in NOT_CHECKED {
+        add(text, format_args!("  · {line}\n"));
+    }
+}
