@@ -129,7 +129,8 @@ fn first_unreached(
     vertices: &[VertexId],
     edges: impl Iterator<Item = (VertexId, VertexId)>,
 ) -> Option<VertexId> {
-    let mut neighbours: Vec<(VertexId, VertexId)> = edges.flat_map(|(from, to)| [(from, to), (to, from)]).collect();
+    let mut neighbours: Vec<(VertexId, VertexId)> =
+        edges.flat_map(|(from, to)| [(from, to), (to, from)]).collect();
     neighbours.sort_unstable();
     let mut reached = vec![false; vertices.len()];
     let mut frontier = vec![VertexId::ROOT];
@@ -168,8 +169,9 @@ pub fn check_no_dangling(view: &View<'_>) -> Result<(), Violation> {
 /// parents and no cycle. `[property: INV-3]`
 pub fn check_tree(view: &View<'_>) -> Result<(), Violation> {
     let parents = unique_parents(view)?;
-    let is_detached =
-        |vertex| view.repairs().iter().any(|repair| matches!(repair, Repair::Detached { vertex: v } if *v == vertex));
+    let is_detached = |vertex| {
+        view.repairs().iter().any(|repair| matches!(repair, Repair::Detached { vertex: v } if *v == vertex))
+    };
     for &vertex in view.vertices() {
         let expected = match parent_in(&parents, vertex) {
             _ if vertex.is_root() => Placement::Root,
@@ -240,7 +242,8 @@ pub fn check_attributes(view: &View<'_>) -> Result<(), Violation> {
 
 /// One edge per key, and one per functional label of a source. `[property: INV-6]`
 pub fn check_registers(view: &View<'_>) -> Result<(), Violation> {
-    let mut shown: Vec<_> = view.edges().iter().map(|shown| (register_of(shown.edge, view.dictionary()), shown)).collect();
+    let mut shown: Vec<_> =
+        view.edges().iter().map(|shown| (register_of(shown.edge, view.dictionary()), shown)).collect();
     shown.sort_unstable_by(|l, r| l.0.cmp(&r.0));
     match shown.windows(2).find(|pair| pair[0].0 == pair[1].0) {
         Some(pair) => {
@@ -277,7 +280,9 @@ fn broken_claim(view: &View<'_>) -> Option<&'static str> {
         return Some("one edge per register");
     }
     let mut parents: Vec<(VertexId, VertexId)> = Vec::new();
-    parents.extend(edges.iter().filter(|edge| edge.is_rt() && !edge.to.is_root()).map(|edge| (edge.to, edge.from)));
+    parents.extend(
+        edges.iter().filter(|edge| edge.is_rt() && !edge.to.is_root()).map(|edge| (edge.to, edge.from)),
+    );
     if has_twins(parents.iter().map(|&(child, _)| child).collect()) {
         return Some("one kinematic parent");
     }
@@ -287,11 +292,14 @@ fn broken_claim(view: &View<'_>) -> Option<&'static str> {
         return Some("one kinematic tree");
     }
     let held = state.records().filter(|(_, record)| matches!(record, Record::Vertex(_)));
-    let vertices: Vec<VertexId> = core::iter::once(VertexId::ROOT).chain(held.map(|(dot, _)| VertexId(dot))).collect();
+    let vertices: Vec<VertexId> =
+        core::iter::once(VertexId::ROOT).chain(held.map(|(dot, _)| VertexId(dot))).collect();
     if first_unreached(&vertices, edges.iter().map(|edge| (edge.from, edge.to))).is_some() {
         return Some("a path to the root");
     }
-    if has_twins(vertices.iter().filter_map(|&vertex| state.vertex(vertex.0)).map(|vertex| &vertex.name).collect()) {
+    if has_twins(
+        vertices.iter().filter_map(|&vertex| state.vertex(vertex.0)).map(|vertex| &vertex.name).collect(),
+    ) {
         return Some("one vertex per name");
     }
     let undeclared = state.records().filter_map(|(dot, _)| state.write(dot)).any(|write| {

@@ -53,9 +53,7 @@ mod value;
 mod view;
 mod wellformed;
 
-pub use codec::{
-    DecodeError, MalformedDigest, check_digest, decode, decode_digest, encode, encode_digest,
-};
+pub use codec::{DecodeError, MalformedDigest, check_digest, decode, decode_digest, encode, encode_digest};
 pub use context::{CausalContext, Run, runs_of};
 pub use dictionary::Dictionary;
 pub use digest::{Digest, Fingerprint, delta_for, digest, fingerprint};

@@ -213,6 +213,10 @@ impl State {
     /// `[spec: ID-3]`. What arrives from outside can be tested before it is joined. `[spec: CRASH-3]`
     pub fn reused_dot(&self, other: &Self) -> Option<Dot> {
         let (small, large) = if self.len() <= other.len() { (self, other) } else { (other, self) };
-        small.store.iter().find(|(dot, record)| large.store.get(dot).is_some_and(|r| r != *record)).map(|(&dot, _)| dot)
+        small
+            .store
+            .iter()
+            .find(|(dot, record)| large.store.get(dot).is_some_and(|r| r != *record))
+            .map(|(&dot, _)| dot)
     }
 }

@@ -277,7 +277,12 @@ impl Hash for Value {
             Self::UInt64(item) => item.hash(state),
             Self::Double(item) => item.to_bits().hash(state),
             Self::U64Vec(items) => items.hash(state),
-            Self::Float(_) | Self::FloatVec(_) | Self::Vec2(_) | Self::Vec3(_) | Self::Vec4(_) | Self::Vec6(_) => {
+            Self::Float(_)
+            | Self::FloatVec(_)
+            | Self::Vec2(_)
+            | Self::Vec3(_)
+            | Self::Vec4(_)
+            | Self::Vec6(_) => {
                 for item in self.floats().unwrap_or_default() {
                     item.to_bits().hash(state);
                 }
@@ -321,7 +326,11 @@ impl fmt::Display for Value {
             Self::U64Vec(items) => write!(f, "<{} integers>", items.len()),
             Self::FloatVec(_) | Self::Vec2(_) | Self::Vec3(_) | Self::Vec4(_) | Self::Vec6(_) => {
                 let items = self.floats().unwrap_or_default();
-                if items.len() <= SHOWN_MAX { write!(f, "{items:?}") } else { write!(f, "<{} floats>", items.len()) }
+                if items.len() <= SHOWN_MAX {
+                    write!(f, "{items:?}")
+                } else {
+                    write!(f, "<{} floats>", items.len())
+                }
             }
         }
     }
@@ -347,6 +356,9 @@ mod tests {
         let odd_nan = Value::Vec2([f32::from_bits(0x7fc0_0001), 1.0]);
         assert!(!odd_nan.has_canonical_nans());
         assert_eq!(odd_nan.with_canonical_nans(), Value::Vec2([f32::from_bits(CANONICAL_NAN_32), 1.0]));
-        assert_eq!(Value::Double(-f64::NAN).with_canonical_nans(), Value::Double(f64::from_bits(CANONICAL_NAN_64)));
+        assert_eq!(
+            Value::Double(-f64::NAN).with_canonical_nans(),
+            Value::Double(f64::from_bits(CANONICAL_NAN_64))
+        );
     }
 }

@@ -158,7 +158,11 @@ fn check_edge(dot: Dot, edge: &Edge) -> Result<(), Malformed> {
 
 fn check_name(dot: Dot, name: &str) -> Result<(), Malformed> {
     let bytes = name.len();
-    if bytes == 0 || bytes > limits::NAME_BYTES_MAX { Err(Malformed::NameLength { dot, bytes }) } else { Ok(()) }
+    if bytes == 0 || bytes > limits::NAME_BYTES_MAX {
+        Err(Malformed::NameLength { dot, bytes })
+    } else {
+        Ok(())
+    }
 }
 
 fn check_anchor(state: &State, dot: Dot, record: &Record, anchor: Dot) -> Result<(), Malformed> {
@@ -173,7 +177,9 @@ fn check_anchor(state: &State, dot: Dot, record: &Record, anchor: Dot) -> Result
     }
     match (record, state.get(anchor)) {
         (_, None | Some(Record::Vertex(_))) | (Record::Write(_), Some(Record::Edge(_))) => Ok(()),
-        (Record::Write(_), Some(_)) => Err(Malformed::WrongAnchor { dot, anchor, expected: "vertex or edge" }),
+        (Record::Write(_), Some(_)) => {
+            Err(Malformed::WrongAnchor { dot, anchor, expected: "vertex or edge" })
+        }
         (_, Some(_)) => Err(Malformed::WrongAnchor { dot, anchor, expected: "vertex" }),
     }
 }

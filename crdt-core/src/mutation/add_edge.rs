@@ -9,7 +9,12 @@ use crate::view::View;
 ///
 /// Supersedes every claim on its register that the state holds unseen by the view. An `RT` edge needs a
 /// child without a kinematic parent and a parent that has a place in the tree and is not below the child.
-pub fn add_edge(view: &View<'_>, author: Author, key: &EdgeKey, attributes: &AttributeMap) -> Result<Delta, AddEdgeError> {
+pub fn add_edge(
+    view: &View<'_>,
+    author: Author,
+    key: &EdgeKey,
+    attributes: &AttributeMap,
+) -> Result<Delta, AddEdgeError> {
     new_edge::check(view, key)?;
     attributes::check(view.dictionary(), attributes.iter())?;
     let mut draft = Draft::new(view.state(), author)?;

@@ -23,7 +23,12 @@ pub struct NewVertex {
 impl NewVertex {
     /// A vertex without attributes.
     pub fn new(vertex_type: &str, name: &str) -> Self {
-        Self { vertex_type: vertex_type.into(), name: name.into(), external_id: None, attributes: AttributeMap::new() }
+        Self {
+            vertex_type: vertex_type.into(),
+            name: name.into(),
+            external_id: None,
+            attributes: AttributeMap::new(),
+        }
     }
 }
 
@@ -62,7 +67,12 @@ pub fn is_root_name(name: &str) -> bool {
 ///
 /// The vertex is `view.state().next_dot(author.replica)`; its edge is the dot after that.
 /// `[spec: MUT-1.4]` `[spec: MUT-1.5]`
-pub fn add_vertex(view: &View<'_>, author: Author, vertex: &NewVertex, link: &VertexLink) -> Result<Delta, AddVertexError> {
+pub fn add_vertex(
+    view: &View<'_>,
+    author: Author,
+    vertex: &NewVertex,
+    link: &VertexLink,
+) -> Result<Delta, AddVertexError> {
     check_vertex(view, vertex)?;
     attributes::check(view.dictionary(), vertex.attributes.iter())?;
     attributes::check(view.dictionary(), link.attributes.iter())?;
@@ -117,7 +127,11 @@ fn check_link(view: &View<'_>, link: &VertexLink) -> Result<(), super::NewEdgeEr
     if &*link.label == RT {
         if link.outgoing {
             // The new vertex has no place in the tree yet, so it cannot be a parent.
-            return if link.other.is_root() { Err(E::IntoRoot) } else { Err(E::ParentOutsideTree { parent: VertexId::ROOT }) };
+            return if link.other.is_root() {
+                Err(E::IntoRoot)
+            } else {
+                Err(E::ParentOutsideTree { parent: VertexId::ROOT })
+            };
         }
         return new_edge::check_parent(view, link.other);
     }

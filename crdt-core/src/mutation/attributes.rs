@@ -1,7 +1,7 @@
 //! Attributes given to a mutation.
 
-use super::error::{AttributeError, ExhaustedError};
 use super::Draft;
+use super::error::{AttributeError, ExhaustedError};
 use crate::dictionary::Dictionary;
 use crate::dot::Dot;
 use crate::limits;
@@ -36,7 +36,11 @@ pub(super) fn check_one(dictionary: &Dictionary, name: &Name, value: &Value) -> 
     match dictionary.attribute_type(name) {
         None if dictionary.closed => return Err(AttributeError::Undeclared { name: name.clone() }),
         Some(declared) if declared != value.value_type() => {
-            return Err(AttributeError::WrongType { name: name.clone(), declared, given: value.value_type() });
+            return Err(AttributeError::WrongType {
+                name: name.clone(),
+                declared,
+                given: value.value_type(),
+            });
         }
         _ => {}
     }

@@ -16,7 +16,11 @@ pub(super) fn check_label(dictionary: &Dictionary, label: &str) -> Result<(), Ne
     if bytes == 0 || bytes > limits::NAME_BYTES_MAX {
         return Err(NewEdgeError::LabelLength { bytes });
     }
-    if dictionary.allows_label(label) { Ok(()) } else { Err(NewEdgeError::UndeclaredLabel { label: label.into() }) }
+    if dictionary.allows_label(label) {
+        Ok(())
+    } else {
+        Err(NewEdgeError::UndeclaredLabel { label: label.into() })
+    }
 }
 
 /// Whether an edge of this key can be added to the view. `[spec: MUT-2.1]` to `[spec: MUT-2.5]`
@@ -39,7 +43,10 @@ pub(super) fn check(view: &View<'_>, key: &EdgeKey) -> Result<(), NewEdgeError> 
     if view.dictionary().is_functional(&key.label) {
         let held = view.edges_from(key.from).iter().find(|shown| shown.edge.label == key.label);
         if let Some(held) = held {
-            return Err(NewEdgeError::FunctionalTaken { label: key.label.clone(), existing: held.edge.key() });
+            return Err(NewEdgeError::FunctionalTaken {
+                label: key.label.clone(),
+                existing: held.edge.key(),
+            });
         }
     }
     Ok(())
@@ -95,7 +102,11 @@ impl Draft {
     }
 
     /// Files an edge with its attributes.
-    pub(super) fn edge(&mut self, key: &EdgeKey, attributes: &super::AttributeMap) -> Result<Dot, ExhaustedError> {
+    pub(super) fn edge(
+        &mut self,
+        key: &EdgeKey,
+        attributes: &super::AttributeMap,
+    ) -> Result<Dot, ExhaustedError> {
         let stamp = self.stamp;
         let edge = Edge { from: key.from, to: key.to, label: key.label.clone(), stamp };
         let dot = self.add(Record::Edge(edge))?;

@@ -73,7 +73,11 @@ pub fn update_attributes(
 }
 
 /// Whether there is something to do, and it can be done. `[spec: MUT-3.3]` `[spec: MUT-3.4]`
-fn check(view: &View<'_>, target: ElementId, updates: &AttributeUpdates) -> Result<(), UpdateAttributesError> {
+fn check(
+    view: &View<'_>,
+    target: ElementId,
+    updates: &AttributeUpdates,
+) -> Result<(), UpdateAttributesError> {
     if updates.is_empty() {
         return Err(UpdateAttributesError::Empty);
     }

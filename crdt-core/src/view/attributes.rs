@@ -60,6 +60,8 @@ impl<'s> Attributes<'s> {
     pub(super) fn winners_of(&self, target: Dot) -> impl Iterator<Item = (Dot, &'s Write)> + '_ {
         let start = self.writes.partition_point(|(_, write)| write.target < target);
         let end = self.writes.partition_point(|(_, write)| write.target <= target);
-        self.writes[start..end].chunk_by(|(_, l), (_, r)| l.name == r.name).filter_map(|register| register.first().copied())
+        self.writes[start..end]
+            .chunk_by(|(_, l), (_, r)| l.name == r.name)
+            .filter_map(|register| register.first().copied())
     }
 }

@@ -74,7 +74,17 @@ pub fn view<'s>(state: &'s State, dictionary: &'s Dictionary) -> View<'s> {
     let attributes = Attributes::of(state, dictionary, &vertices, &candidates, &mut repairs);
     let names = names_of(state, &vertices, &mut repairs);
     repairs.sort_unstable();
-    View { state, dictionary, vertices, edges, placements: tree.placements, stranded, attributes, names, repairs }
+    View {
+        state,
+        dictionary,
+        vertices,
+        edges,
+        placements: tree.placements,
+        stranded,
+        attributes,
+        names,
+        repairs,
+    }
 }
 
 fn key_of<'a>(shown: &ShownEdge<'a>) -> (VertexId, VertexId, &'a str) {

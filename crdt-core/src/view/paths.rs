@@ -18,7 +18,9 @@ pub(super) fn stranded(
 ) -> Vec<VertexId> {
     let mut components = UnionFind::new(vertices.len());
     for shown in edges {
-        if let (Ok(from), Ok(to)) = (vertices.binary_search(&shown.edge.from), vertices.binary_search(&shown.edge.to)) {
+        if let (Ok(from), Ok(to)) =
+            (vertices.binary_search(&shown.edge.from), vertices.binary_search(&shown.edge.to))
+        {
             components.unite(from, to);
         }
     }

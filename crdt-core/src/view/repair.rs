@@ -89,12 +89,16 @@ impl fmt::Display for Repair {
                 write!(f, "edge {hidden} is hidden: {shown} is the greater claim on {on}")
             }
             Self::CycleBroken { hidden } => write!(f, "RT edge {hidden} is hidden: it would close a cycle"),
-            Self::Detached { vertex } => write!(f, "{vertex} lost its kinematic parent: it hangs from the root, pose unknown"),
+            Self::Detached { vertex } => {
+                write!(f, "{vertex} lost its kinematic parent: it hangs from the root, pose unknown")
+            }
             Self::Reattached { vertex } => write!(f, "{vertex} had no path to the root: it is linked to it"),
             Self::NameClash { name, shown, hidden } => {
                 write!(f, "{hidden} is named {name:?} as well: the name finds {shown}, which is older")
             }
-            Self::Undeclared { write } => write!(f, "write {write} is hidden: the dictionary does not declare it so"),
+            Self::Undeclared { write } => {
+                write!(f, "write {write} is hidden: the dictionary does not declare it so")
+            }
         }
     }
 }

@@ -34,7 +34,11 @@ pub(super) struct Tree<'s> {
 
 /// Accepts kinematic claims, greatest first, each unless its child has a parent already or it would close
 /// a cycle; then hangs every other top of a tree from the root. Greedy acceptance is maximal.
-pub(super) fn grow<'s>(candidates: &[ShownEdge<'s>], vertices: &[VertexId], repairs: &mut Vec<Repair>) -> Tree<'s> {
+pub(super) fn grow<'s>(
+    candidates: &[ShownEdge<'s>],
+    vertices: &[VertexId],
+    repairs: &mut Vec<Repair>,
+) -> Tree<'s> {
     let mut claims: Vec<ShownEdge<'s>> =
         candidates.iter().filter(|claim| claim.edge.is_rt() && !claim.edge.to.is_root()).copied().collect();
     claims.sort_unstable_by_key(|claim| Reverse((claim.edge.stamp, claim.id)));
@@ -43,7 +47,8 @@ pub(super) fn grow<'s>(candidates: &[ShownEdge<'s>], vertices: &[VertexId], repa
     let mut has_child = vec![false; vertices.len()];
     let mut accepted = Vec::with_capacity(claims.len());
     for claim in claims {
-        let (Ok(parent), Ok(child)) = (vertices.binary_search(&claim.edge.from), vertices.binary_search(&claim.edge.to))
+        let (Ok(parent), Ok(child)) =
+            (vertices.binary_search(&claim.edge.from), vertices.binary_search(&claim.edge.to))
         else {
             continue;
         };
