@@ -80,7 +80,11 @@ const BOUNDS: &[&str] = &["exactly", "at_least", "at_most"];
 const COUNT_MAX: u64 = 1 << 20;
 
 /// The one field of `among` that an object has.
-fn only<'j>(cursor: &Cursor<'_>, object: &Object<'j>, among: &'static [&'static str]) -> Read<(&'static str, Cursor<'j>)> {
+fn only<'j>(
+    cursor: &Cursor<'_>,
+    object: &Object<'j>,
+    among: &'static [&'static str],
+) -> Read<(&'static str, Cursor<'j>)> {
     let mut present = among.iter().filter_map(|field| object.get(field).map(|value| (*field, value)));
     match (present.next(), present.next()) {
         (Some(found), None) => Ok(found),
@@ -120,17 +124,23 @@ impl Atom {
             "writes" => {
                 let writes = counted.object(&["of", "name"])?;
                 let name = writes.need("name")?;
-                Countable::Writes(read_target(&writes.need("of")?, scope)?, scope.attribute(&name, name.text()?)?)
+                Countable::Writes(
+                    read_target(&writes.need("of")?, scope)?,
+                    scope.attribute(&name, name.text()?)?,
+                )
             }
             _ => Countable::Repairs(counted.word(REPAIRS)?),
         };
         let (bound, number) = only(cursor, &object, BOUNDS)?;
         let number = usize::try_from(number.whole(0, COUNT_MAX)?).unwrap_or(usize::MAX);
-        Ok(Self::Count(counted, match bound {
-            "exactly" => Bound::Exactly(number),
-            "at_least" => Bound::AtLeast(number),
-            _ => Bound::AtMost(number),
-        }))
+        Ok(Self::Count(
+            counted,
+            match bound {
+                "exactly" => Bound::Exactly(number),
+                "at_least" => Bound::AtLeast(number),
+                _ => Bound::AtMost(number),
+            },
+        ))
     }
 
     pub(super) fn attribute(cursor: &Cursor<'_>, scope: &Scope) -> Read<Self> {
@@ -197,7 +207,9 @@ impl Countable {
         match self {
             Self::Vertices(pattern) => pattern.count(view),
             Self::Edges(pattern) => pattern.matches(view).count(),
-            Self::Writes(of, name) => target(view, of).map_or(0, |dot| view.attribute_writes(dot, name).len()),
+            Self::Writes(of, name) => {
+                target(view, of).map_or(0, |dot| view.attribute_writes(dot, name).len())
+            }
             Self::Repairs(kind) => {
                 view.repairs().iter().filter(|repair| kind.is_none_or(|kind| repair.kind() == kind)).count()
             }

@@ -129,7 +129,9 @@ impl<'j> Object<'j> {
 
     /// A field that must be there.
     pub(super) fn need(&self, field: &str) -> Read<Cursor<'j>> {
-        let missing = || Box::new(Misfit { path: self.path.clone(), fault: Fault::MissingField { field: field.into() } });
+        let missing = || {
+            Box::new(Misfit { path: self.path.clone(), fault: Fault::MissingField { field: field.into() } })
+        };
         self.get(field).ok_or_else(missing)
     }
 }

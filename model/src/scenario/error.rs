@@ -49,7 +49,9 @@ pub enum Fault {
         reason: String,
     },
     /// The file is too large.
-    #[error("has {bytes} bytes; allowed are {most}: a scenario is written by hand, large graphs go into a scene file")]
+    #[error(
+        "has {bytes} bytes; allowed are {most}: a scenario is written by hand, large graphs go into a scene file"
+    )]
     TooLarge {
         /// Its size.
         bytes: usize,

@@ -17,9 +17,15 @@ use std::sync::Arc;
 use std::time::Instant;
 
 /// A semantics of DSR graphs: that of the core, or a broken copy of it.
-pub trait Replicated: Semantics<State = State, Delta = Delta, Mutation = Act> + std::fmt::Debug + 'static {}
+pub trait Replicated:
+    Semantics<State = State, Delta = Delta, Mutation = Act> + std::fmt::Debug + 'static
+{
+}
 
-impl<S: Semantics<State = State, Delta = Delta, Mutation = Act> + std::fmt::Debug + 'static> Replicated for S {}
+impl<S: Semantics<State = State, Delta = Delta, Mutation = Act> + std::fmt::Debug + 'static> Replicated
+    for S
+{
+}
 
 /// How far an exploration may go, and how.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -118,7 +124,8 @@ fn idle(scenario: &Scenario, taken: &[Vec<bool>]) -> Vec<IdleStep> {
 
 /// Searches again, breadth first, for the shortest way to what was found.
 fn add_traces<S: Replicated>(inner: &mut Inner<S>, report: &mut Report) {
-    let decided = |property: &PropertyReport| matches!(property.verdict, Verdict::Violated | Verdict::Witnessed);
+    let decided =
+        |property: &PropertyReport| matches!(property.verdict, Verdict::Violated | Verdict::Witnessed);
     let wanted: Vec<usize> =
         report.properties.iter().enumerate().filter(|(_, it)| decided(it)).map(|(at, _)| at).collect();
     inner.space.memo.fault = None;

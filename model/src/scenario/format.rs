@@ -74,8 +74,10 @@ fn read_scenario(top: &Cursor<'_>, open: Open<'_>) -> Read<Scenario> {
         foresee(replica, &mut scope)?;
     }
     let mut atoms = Atoms::default();
-    let replicas =
-        replicas.iter().map(|replica| Replica::read(replica, &scope, &mut atoms)).collect::<Read<Vec<_>>>()?;
+    let replicas = replicas
+        .iter()
+        .map(|replica| Replica::read(replica, &scope, &mut atoms))
+        .collect::<Read<Vec<_>>>()?;
     let properties = read_properties(&object.need("properties")?, &scope, &mut atoms)?;
     Ok(Scenario { name, about, dictionary: scope.dictionary, initial, focus, replicas, atoms, properties })
 }

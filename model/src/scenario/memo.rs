@@ -191,6 +191,10 @@ impl<S: Replicated> Memo<S> {
         }
         let before = self.state(state);
         let after = self.semantics.join(&before, &self.delta(delta));
+        if after == *before {
+            self.joins.insert((state, delta), state);
+            return state;
+        }
         let delivery = self.semantics.judge_delivery(&before, &after);
         let joined = self.intern(after);
         if let Err(breach) = delivery {
@@ -201,7 +205,12 @@ impl<S: Replicated> Memo<S> {
     }
 
     /// What a replica can do next in a state: nothing if it waits. `[spec: SCEN-4]` `[spec: SCEN-6]`
-    pub(super) fn moves(&mut self, state: StateId, replica: usize, at: Position) -> Result<Arc<[Move]>, Breach> {
+    pub(super) fn moves(
+        &mut self,
+        state: StateId,
+        replica: usize,
+        at: Position,
+    ) -> Result<Arc<[Move]>, Breach> {
         if let Some(moves) = self.moves.get(&(state, replica, at)) {
             return Ok(moves.clone());
         }
@@ -284,7 +293,13 @@ impl<S: Replicated> Memo<S> {
         Ok(Some(step))
     }
 
-    fn free_moves(&mut self, id: StateId, replica: usize, at: Position, budget: u32) -> Result<Vec<Move>, Breach> {
+    fn free_moves(
+        &mut self,
+        id: StateId,
+        replica: usize,
+        at: Position,
+        budget: u32,
+    ) -> Result<Vec<Move>, Breach> {
         let state = self.state(id);
         let mutations = match &self.alphabets[replica] {
             Some(alphabet) => alphabet.mutations(&state, replica),

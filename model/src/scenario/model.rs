@@ -75,7 +75,8 @@ impl<S: Replicated> Model for ScenarioModel<S> {
     fn actions(&self, node: &Node, actions: &mut Vec<Node>) {
         let inner = &mut *self.inner();
         // The property is asked first, of the same history; it has done the work.
-        let known = inner.expanded.take().filter(|(known, _)| known == node).map(|(_, successors)| successors);
+        let known =
+            inner.expanded.take().filter(|(known, _)| known == node).map(|(_, successors)| successors);
         let successors = match known {
             Some(successors) => successors,
             None if inner.broken.is_some() => return,

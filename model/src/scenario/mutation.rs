@@ -5,7 +5,8 @@ use super::error::Fault;
 use super::pattern::EdgePattern;
 use super::scope::Scope;
 use dsr_core::{
-    AttributeMap, AttributeUpdates, EdgeKey, ElementId, Mutation, Name, NewVertex, RT, VertexId, VertexLink, View,
+    AttributeMap, AttributeUpdates, EdgeKey, ElementId, Mutation, Name, NewVertex, RT, VertexId, VertexLink,
+    View,
 };
 use std::fmt;
 
@@ -99,7 +100,8 @@ pub enum Unresolved {
     },
 }
 
-const KINDS: &[&str] = &["add_vertex", "add_edge", "update_attributes", "remove_edge", "move_edge", "remove_vertex"];
+const KINDS: &[&str] =
+    &["add_vertex", "add_edge", "update_attributes", "remove_edge", "move_edge", "remove_vertex"];
 
 impl NamedKey {
     fn read(cursor: &Cursor<'_>, scope: &Scope, fields: &'static [&'static str]) -> Read<Self> {
@@ -210,7 +212,10 @@ fn read_add_vertex(body: &Cursor<'_>, scope: &Scope) -> Read<NamedMutation> {
     };
     let label = scope.label(&link.need("label")?)?;
     if &*label == RT && outgoing {
-        return cursor.fault(Fault::Needs { field: "label", needed: "`from`, its parent, for a kinematic link: `to`" });
+        return cursor.fault(Fault::Needs {
+            field: "label",
+            needed: "`from`, its parent, for a kinematic link: `to`",
+        });
     }
     let attributes = scope.attributes(link.get("attributes").as_ref())?;
     Ok(NamedMutation::AddVertex { vertex, other, label, outgoing, attributes })

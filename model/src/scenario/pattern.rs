@@ -27,7 +27,11 @@ pub struct EdgePattern {
 }
 
 fn is_named(view: &View<'_>, vertex: VertexId, name: &str) -> bool {
-    if vertex.is_root() { is_root_name(name) } else { view.vertex(vertex).is_some_and(|it| *it.name == *name) }
+    if vertex.is_root() {
+        is_root_name(name)
+    } else {
+        view.vertex(vertex).is_some_and(|it| *it.name == *name)
+    }
 }
 
 impl VertexPattern {
@@ -72,7 +76,8 @@ impl EdgePattern {
 
     /// The shown edges that match.
     pub(super) fn matches<'v, 's>(&'v self, view: &'v View<'s>) -> impl Iterator<Item = ShownEdge<'s>> + 'v {
-        let named = |name: &Option<Name>, vertex| name.as_ref().is_none_or(|name| is_named(view, vertex, name));
+        let named =
+            |name: &Option<Name>, vertex| name.as_ref().is_none_or(|name| is_named(view, vertex, name));
         view.edges().iter().copied().filter(move |shown| {
             self.label.as_ref().is_none_or(|label| *label == shown.edge.label)
                 && named(&self.from, shown.edge.from)

@@ -13,8 +13,20 @@ const DEPTH_MAX: usize = 16;
 /// The most parts of one `all` or `any`.
 const PARTS_MAX: usize = 64;
 
-const PREDICATES: &[&str] =
-    &["all", "any", "not", "if", "then", "vertex", "edge", "attribute", "count", "placement", "repair", "done"];
+const PREDICATES: &[&str] = &[
+    "all",
+    "any",
+    "not",
+    "if",
+    "then",
+    "vertex",
+    "edge",
+    "attribute",
+    "count",
+    "placement",
+    "repair",
+    "done",
+];
 
 /// All different questions of a scenario; predicates refer to them by number.
 #[derive(Clone, Debug, Default)]
@@ -81,7 +93,11 @@ struct Reader<'r> {
 impl Reader<'_> {
     fn read(&mut self, cursor: &Cursor<'_>) -> Read<Predicate> {
         if self.depth == DEPTH_MAX {
-            return cursor.fault(Fault::TooMany { what: "levels of predicates", count: DEPTH_MAX + 1, most: DEPTH_MAX });
+            return cursor.fault(Fault::TooMany {
+                what: "levels of predicates",
+                count: DEPTH_MAX + 1,
+                most: DEPTH_MAX,
+            });
         }
         self.depth += 1;
         let predicate = self.read_one(cursor);

@@ -44,7 +44,8 @@ impl Report {
     /// Whether all is as it ought to be: complete, no clause broken, every property holds or is witnessed, and
     /// every step is taken.
     pub fn is_as_expected(&self) -> bool {
-        let good = |property: &PropertyReport| matches!(property.verdict, Verdict::Holds | Verdict::Witnessed);
+        let good =
+            |property: &PropertyReport| matches!(property.verdict, Verdict::Holds | Verdict::Witnessed);
         self.complete && self.breach.is_none() && self.idle.is_empty() && self.properties.iter().all(good)
     }
 }

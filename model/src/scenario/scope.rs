@@ -48,7 +48,11 @@ impl Scope {
             return checked_length(cursor, label);
         }
         let nearest = nearest(label, self.dictionary.edge_labels.iter().map(|name| &**name));
-        cursor.fault(Fault::UnknownName { what: "edge label in the dictionary called", name: label.into(), nearest })
+        cursor.fault(Fault::UnknownName {
+            what: "edge label in the dictionary called",
+            name: label.into(),
+            nearest,
+        })
     }
 
     /// A vertex's type.
@@ -58,7 +62,11 @@ impl Scope {
             return checked_length(cursor, name);
         }
         let nearest = nearest(name, self.dictionary.vertex_types.iter().map(|name| &**name));
-        cursor.fault(Fault::UnknownName { what: "vertex type in the dictionary called", name: name.into(), nearest })
+        cursor.fault(Fault::UnknownName {
+            what: "vertex type in the dictionary called",
+            name: name.into(),
+            nearest,
+        })
     }
 
     /// An attribute's name.
@@ -67,7 +75,11 @@ impl Scope {
             return checked_length(cursor, name);
         }
         let nearest = nearest(name, self.dictionary.attributes.keys().map(|name| &**name));
-        cursor.fault(Fault::UnknownName { what: "attribute in the dictionary called", name: name.into(), nearest })
+        cursor.fault(Fault::UnknownName {
+            what: "attribute in the dictionary called",
+            name: name.into(),
+            nearest,
+        })
     }
 
     /// A value of an attribute: typed, or plain where the dictionary or the form says the type. `[spec: SCEN-3]`
@@ -128,7 +140,11 @@ impl Scope {
 
 fn checked_length(cursor: &Cursor<'_>, name: &str) -> Read<Name> {
     if name.len() > limits::NAME_BYTES_MAX {
-        return cursor.fault(Fault::TooMany { what: "bytes in a name", count: name.len(), most: limits::NAME_BYTES_MAX });
+        return cursor.fault(Fault::TooMany {
+            what: "bytes in a name",
+            count: name.len(),
+            most: limits::NAME_BYTES_MAX,
+        });
     }
     Ok(name.into())
 }

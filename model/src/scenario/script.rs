@@ -63,7 +63,9 @@ impl Replica {
         let conduct = match (object.get("script"), object.get("alphabet"), object.get("budget")) {
             (Some(script), None, None) => {
                 let steps = script.list("script", 1, STEPS_MAX)?;
-                Conduct::Script(steps.iter().map(|step| ScriptStep::read(step, scope, atoms)).collect::<Read<_>>()?)
+                Conduct::Script(
+                    steps.iter().map(|step| ScriptStep::read(step, scope, atoms)).collect::<Read<_>>()?,
+                )
             }
             (None, Some(alphabet), budget) => {
                 let Some(budget) = budget else {
@@ -72,9 +74,12 @@ impl Replica {
                 let budget = u32::try_from(budget.whole(1, BUDGET_MAX)?).unwrap_or(u32::MAX);
                 Conduct::Free { kinds: read_kinds(&alphabet)?, budget }
             }
-            (None, None, Some(_)) => return cursor.fault(Fault::Needs { field: "budget", needed: "an `alphabet`" }),
+            (None, None, Some(_)) => {
+                return cursor.fault(Fault::Needs { field: "budget", needed: "an `alphabet`" });
+            }
             (Some(_), None, Some(_)) => {
-                return cursor.fault(Fault::Needs { field: "budget", needed: "an `alphabet`; a script has none:" });
+                return cursor
+                    .fault(Fault::Needs { field: "budget", needed: "an `alphabet`; a script has none:" });
             }
             (script, ..) => {
                 let found = if script.is_some() { 2 } else { 0 };
@@ -88,7 +93,8 @@ impl Replica {
     pub(super) fn mutations_max(&self) -> usize {
         match &self.conduct {
             Conduct::Script(steps) => {
-                let repeats = steps.iter().filter(|step| !step.mutations.is_empty()).map(|step| step.repeat as usize);
+                let repeats =
+                    steps.iter().filter(|step| !step.mutations.is_empty()).map(|step| step.repeat as usize);
                 repeats.sum()
             }
             Conduct::Free { budget, .. } => *budget as usize,
@@ -121,7 +127,8 @@ impl ScriptStep {
         let mutations = object.get("do").map(|list| read_group(&list, scope)).transpose()?;
         let has_group = mutations.is_some();
         if when.is_none() && !has_group {
-            return cursor.fault(Fault::Empty { what: "step: a mutation to `do`, or a guard to wait for (`when`)" });
+            return cursor
+                .fault(Fault::Empty { what: "step: a mutation to `do`, or a guard to wait for (`when`)" });
         }
         let otherwise = object.get("else").map(|word| word.word(OTHERWISE)).transpose()?;
         let refused = object.get("refused").map(|word| word.word(OTHERWISE)).transpose()?;

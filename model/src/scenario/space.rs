@@ -157,7 +157,8 @@ impl<S: Replicated> Space<S> {
                 Seat::Doing(_, at) if !is_free => {
                     let moves = self.memo.moves(last, replica, at);
                     let received = node.pool.to_vec();
-                    let moves = moves.map_err(|breach| Broken { breach, replica: Some(replica), received })?;
+                    let moves =
+                        moves.map_err(|breach| Broken { breach, replica: Some(replica), received })?;
                     if !moves.is_empty() {
                         return Ok(None);
                     }

@@ -84,7 +84,8 @@ pub(super) enum Last {
 /// Tells a way and its end.
 pub(super) fn tell<S: Replicated>(space: &Space<S>, way: &[Choice], last: Last) -> Trace {
     let replicas = space.memo.scenario.replicas.len();
-    let mut teller = Teller { space, made: Vec::new(), known: vec![BTreeSet::new(); replicas], steps: Vec::new() };
+    let mut teller =
+        Teller { space, made: Vec::new(), known: vec![BTreeSet::new(); replicas], steps: Vec::new() };
     for choice in way {
         teller.choose(choice);
     }
@@ -172,7 +173,12 @@ impl<S: Replicated> Teller<'_, S> {
     /// Somebody sees it: a replica that can have received just that, or else a reader.
     fn view(&mut self, state: StateId, seen: &BTreeSet<DeltaId>) {
         let can = |known: &&BTreeSet<DeltaId>| known.is_subset(seen);
-        let best = self.known.iter().enumerate().filter(|(_, known)| can(known)).max_by_key(|(_, known)| known.len());
+        let best = self
+            .known
+            .iter()
+            .enumerate()
+            .filter(|(_, known)| can(known))
+            .max_by_key(|(_, known)| known.len());
         let who = best.map(|(at, _)| at);
         self.receive(who, seen.iter().copied());
         self.see(self.name(who), state);
@@ -209,9 +215,16 @@ impl fmt::Display for ScenarioStep {
         match self {
             Self::Receive { replica, deltas } => {
                 let list: Vec<String> = deltas.iter().map(ToString::to_string).collect();
-                write!(f, "{replica} receives {} {}", if list.len() == 1 { "delta" } else { "deltas" }, list.join(", "))
+                write!(
+                    f,
+                    "{replica} receives {} {}",
+                    if list.len() == 1 { "delta" } else { "deltas" },
+                    list.join(", ")
+                )
             }
-            Self::Mutate { replica, text, number, .. } => write!(f, "{replica}: {} (delta {number})", text.join("; ")),
+            Self::Mutate { replica, text, number, .. } => {
+                write!(f, "{replica}: {} (delta {number})", text.join("; "))
+            }
             Self::Go { replica, script_step, how } => write!(f, "{replica} {how} step {script_step}"),
             Self::See { replica, changes } => {
                 write!(f, "{replica} sees")?;
