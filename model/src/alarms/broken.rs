@@ -4,7 +4,7 @@ use super::shown::Shown;
 use super::shown_judge::judge_shown;
 use crate::algebra::{Algebra, Family, core_universe};
 use crate::checked::{Act, Checked, replica_id};
-use crate::semantics::{Breach, Semantics, Step, Witnesses};
+use crate::semantics::{Breach, Judged, Semantics, Step};
 use dsr_core::{Author, Delta, Dot, Mutation, State, View, delta_for, digest, view};
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -140,8 +140,8 @@ impl Semantics for Broken {
 
     /// The predicates of the core on the state, and on what is shown of it, by each of two replicas; equal
     /// states must have equal views on both. `[property: VIEW-1]`
-    fn judge(&self, state: &State) -> Result<Witnesses, Breach> {
-        let witnesses = self.core.judge(state)?;
+    fn judge(&self, state: &State) -> Result<Judged, Breach> {
+        let judged = self.core.judge(state)?;
         let core_view = view(state, &self.core.dictionary);
         let mut first: Option<Shown> = None;
         for here in WATCHERS {
@@ -155,7 +155,7 @@ impl Semantics for Broken {
                 None => first = Some(shown),
             }
         }
-        Ok(witnesses)
+        Ok(judged)
     }
 
     fn judge_step(&self, before: &State, replica: usize, mutation: &Act, step: &Step<Self>) -> Result<(), Breach> {

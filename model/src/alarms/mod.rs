@@ -20,7 +20,7 @@ pub use broken::{Broken, Flaw, Sound};
 pub use report::{AlarmReport, Report, report};
 pub use run::{Finding, LayerReport, run_alarm, run_sound};
 pub use shown::Shown;
-pub use subject::subject;
+pub use subject::{A, B, subject};
 
 use std::sync::Arc;
 

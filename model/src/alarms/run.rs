@@ -150,7 +150,11 @@ fn bound_name(replicas: usize, mutations: usize, kinds: &[MutationKind]) -> Stri
 
 fn finding(layer: &'static str, report: &RunReport) -> Finding {
     let trace = report.traces.first();
-    let breach = trace.map(|trace| (trace.breach.clause.clone(), trace.breach.detail.clone()));
-    let (clause, detail) = breach.unwrap_or_else(|| ("?".into(), report.notes.join("; ")));
-    Finding { layer, bound: report.name.clone(), clause, detail, steps: trace.map_or(0, |trace| trace.steps.len()) }
+    let clause = trace.map_or_else(|| "?".into(), |trace| trace.clause.clone());
+    let detail = trace.and_then(|trace| trace.json["breach"]["detail"].as_str()).map_or_else(
+        || report.notes.join("; "),
+        Into::into,
+    );
+    let steps = trace.and_then(|trace| trace.json["steps"].as_array()).map_or(0, Vec::len);
+    Finding { layer, bound: report.name.clone(), clause, detail, steps }
 }
