@@ -1,6 +1,12 @@
 //! Files that are no scene at all: each a clear error with its place, and never a panic.
 
 #![cfg(feature = "serde")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test that cannot go on says where"
+)]
 
 mod scene_support;
 

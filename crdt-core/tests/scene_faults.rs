@@ -1,6 +1,12 @@
 //! Every fault of a graph: told with its place when read strictly, dropped and listed when read leniently.
 
 #![cfg(feature = "serde")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test that cannot go on says where"
+)]
 
 mod scene_support;
 

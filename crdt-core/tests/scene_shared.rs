@@ -1,6 +1,12 @@
 //! The published system's own scenes, where they are at hand, and the scenes that ship with the crate.
 
 #![cfg(feature = "serde")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test that cannot go on says where"
+)]
 
 mod scene_support;
 

@@ -1,6 +1,12 @@
 //! Every type of value, on vertices and on edges, there and back.
 
 #![cfg(feature = "serde")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test that cannot go on says where"
+)]
 
 mod scene_support;
 

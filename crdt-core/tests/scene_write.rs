@@ -1,6 +1,12 @@
 //! Scenes of any state: conflicts, repairs, vertices that no file ever had.
 
 #![cfg(feature = "serde")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test that cannot go on says where"
+)]
 
 mod scene_support;
 

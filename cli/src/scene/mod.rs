@@ -15,7 +15,10 @@ use dsr_core::Dictionary;
 use dsr_core::scene::Strictness;
 
 const AFTER: &str = "\
-Scenes are limited to 64 MiB, states to 1 GiB. FILE may also be a state, as JSON or binary.";
+Lengths are in the units of the file: millimetres in files of the published system, metres in @flat and @tiny. \
+Angles are in radians. FILE may also be a state, as JSON or binary.
+
+Exit status: 0 printed, 3 otherwise. Scenes are limited to 64 MiB, states to 1 GiB.";
 
 /// The subcommands of `dsr scene`.
 #[derive(Subcommand, Debug)]
