@@ -9,13 +9,15 @@ use super::symmetry::{DeltaSet, delta_set};
 use super::{Histories, History};
 use crate::semantics::{Breach, Semantics};
 use crate::tables::{DeltaId, NONE, StateId};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// What was judged, and the first fault.
 #[derive(Debug, Default)]
 pub(super) struct Judge {
     /// Sets judged, with their states; whether their images were judged as well.
     sets: FxHashMap<(DeltaSet, bool), StateId>,
+    /// The least images of sets judged together with all their images.
+    orbits: FxHashSet<DeltaSet>,
     delivered: u64,
     diamonds: u64,
 }
@@ -104,6 +106,15 @@ impl<S: Semantics> Histories<S> {
         let key = (delta_set(set.iter().copied()), images);
         if let Some(&state) = self.judge.sets.get(&key) {
             return Ok(state);
+        }
+        let orbit = images.then(|| self.canonical_set(set));
+        if orbit.is_some_and(|orbit| !self.judge.orbits.insert(orbit)) {
+            // An image of this set was judged: here only its state is needed.
+            let (last, rest) = set.split_last().unwrap_or((&NONE, &[]));
+            let before = self.state_of(rest, images)?;
+            let id = self.tables.join(&self.semantics, before, *last);
+            self.judge.sets.insert(key, id);
+            return Ok(id);
         }
         let (state, _) = self.join_all(set, images)?;
         let id = self.tables.intern(state);

@@ -8,7 +8,7 @@
 
 use super::{Histories, History, MUTATIONS_MAX, REPLICAS_MAX};
 use crate::semantics::Semantics;
-use crate::tables::NONE;
+use crate::tables::{DeltaId, NONE};
 
 /// All permutations of the replicas; the identity is number 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -71,6 +71,17 @@ impl<S: Semantics> Histories<S> {
     pub(super) fn canonical(&mut self, history: &History) -> History {
         let images = (0..self.permutations.len()).map(|permutation| self.image(history, permutation));
         images.min().unwrap_or(*history)
+    }
+
+    /// The least image of a set of deltas.
+    pub(super) fn canonical_set(&mut self, set: &[DeltaId]) -> DeltaSet {
+        let mut least = delta_set(set.iter().copied());
+        for permutation in 1..self.permutations.len() {
+            let to = self.permutations.get(permutation).to_vec();
+            let image = set.iter().map(|&delta| self.tables.rename_delta(&self.semantics, delta, permutation, &to));
+            least = least.min(delta_set(image));
+        }
+        least
     }
 
     /// Every history that this one stands for.

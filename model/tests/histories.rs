@@ -1,0 +1,131 @@
+//! L1: its reductions are exact, its engines agree, and its wrapper cannot be talked into a pass.
+
+use dsr_core::scene::{Scene, Strictness, TINY};
+use dsr_core::{Dictionary, MutationKind, State};
+use dsr_model::checked::Checked;
+use dsr_model::engine;
+use dsr_model::histories::{Bound, Histories, History, HistoryRun};
+use dsr_model::progress::{Limits, Progress};
+use dsr_model::suite::Subject;
+use dsr_model::verdict::{PropertyKind, RunReport, Verdict};
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+fn tiny() -> (State, Dictionary) {
+    let dictionary = Dictionary::aal();
+    let scene = Scene::read(TINY, &dictionary, Strictness::Strict).unwrap().scene;
+    (scene.state, dictionary)
+}
+
+fn run_of(focus: usize, replicas: usize, mutations: usize, kinds: &[MutationKind]) -> HistoryRun<Checked> {
+    let (state, dictionary) = tiny();
+    let subject = Subject { state: &state, dictionary: &dictionary, names: &["kitchen", "robot", "table", "cup"] };
+    subject.histories(focus, Bound { replicas, mutations }, kinds, true).unwrap()
+}
+
+fn checked(run: &HistoryRun<Checked>, limits: Limits) -> RunReport {
+    run.run(&Arc::new(Progress::new(limits)))
+}
+
+/// Every history within the bound.
+fn all_histories(run: &HistoryRun<Checked>, symmetry: bool) -> (Histories<Checked>, BTreeSet<History>) {
+    let mut histories = Histories::new(run.semantics.clone(), run.bound, symmetry);
+    let mut seen = BTreeSet::from([histories.start()]);
+    let mut open: Vec<History> = seen.iter().copied().collect();
+    while let Some(history) = open.pop() {
+        let mut successors = Vec::new();
+        assert!(histories.successors(&history, &mut successors).is_ok());
+        open.extend(successors.into_iter().map(|(_, next)| next).filter(|&next| seen.insert(next)));
+    }
+    (histories, seen)
+}
+
+/// The orbits of the histories with symmetry are together exactly as many as the histories without it.
+/// `[spec: CHECK-5]`
+#[test]
+fn differential_orbits_add_up_to_all_histories() {
+    use MutationKind as K;
+    let cases: [(usize, usize, usize, &[K]); 5] = [
+        (2, 2, 1, &K::ALL),
+        (2, 2, 2, &[K::MoveEdge, K::RemoveVertex]),
+        (2, 2, 2, &[K::UpdateAttributes, K::RemoveVertex]),
+        (2, 3, 1, &[K::AddVertex, K::MoveEdge, K::RemoveVertex]),
+        (2, 3, 2, &[K::RemoveEdge, K::RemoveVertex]),
+    ];
+    for (focus, replicas, mutations, kinds) in cases {
+        let run = run_of(focus, replicas, mutations, kinds);
+        let (_, plain) = all_histories(&run, false);
+        let (mut histories, canonical) = all_histories(&run, true);
+        let mut orbits = BTreeSet::new();
+        for history in &canonical {
+            orbits.extend(histories.orbit(history).iter().map(|image| shape(&histories, image)));
+        }
+        assert_eq!(orbits.len(), plain.len(), "{replicas} × {mutations}, {kinds:?}");
+        if kinds.len() > 2 {
+            assert!(canonical.len() < plain.len(), "symmetry saves nothing at {replicas} × {mutations}");
+        }
+    }
+}
+
+/// A history by its states and deltas, whatever their numbers in one search.
+fn shape(histories: &Histories<Checked>, history: &History) -> Vec<Option<State>> {
+    let tables = histories.tables();
+    let deltas = history.deltas.iter().flatten();
+    let deltas = deltas.map(|&id| (id != u32::MAX).then(|| (*tables.delta(id)).clone()));
+    let last = history.last.iter().map(|&id| (id != u32::MAX).then(|| (*tables.state(id)).clone()));
+    deltas.chain(last).collect()
+}
+
+/// `[spec: CHECK-9]` `[spec: CHECK-3]` `[spec: CHECK-4]`
+#[test]
+fn differential_both_engines_count_the_same() {
+    for kinds in [&MutationKind::ALL[..], &[MutationKind::MoveEdge, MutationKind::RemoveVertex]] {
+        let run = run_of(2, 2, 1, kinds);
+        let report = checked(&run, Limits::default());
+        let second = report.second_engine.unwrap();
+        assert_eq!(report.verdict, Verdict::Exhaustive, "{:?}", report.notes);
+        assert_eq!((report.states.unique, report.states.generated), (second.unique, second.generated));
+        assert!(report.states.judged > 0 && report.states.diamonds > report.states.judged / 2);
+        let mut fresh = Histories::new(run.semantics.clone(), run.bound, true);
+        assert_eq!(engine::count(&mut fresh, u64::MAX).unwrap().unique, second.unique);
+    }
+}
+
+/// `[spec: CHECK-1]`
+#[test]
+fn law_a_limit_makes_the_verdict_bounded() {
+    let run = run_of(2, 2, 2, &MutationKind::ALL);
+    let report = checked(&run, Limits { states_max: 50, ..Limits::default() });
+    assert_eq!(report.verdict, Verdict::Bounded);
+    let always = report.properties.iter().filter(|property| property.kind == PropertyKind::Always);
+    assert!(always.map(|property| property.verdict).all(|verdict| verdict == Verdict::Bounded));
+    assert!(report.notes.iter().any(|note| note.contains("before its end")), "{:?}", report.notes);
+    let late = checked(&run, Limits { seconds_max: 0.0, ..Limits::default() });
+    assert_eq!(late.verdict, Verdict::Bounded);
+}
+
+/// Nothing but the robot in focus: no edge can be removed, so a run of removals proves nothing.
+/// `[spec: CHECK-10]`
+#[test]
+fn law_a_run_that_never_sees_its_kinds_is_vacuous() {
+    let (state, dictionary) = tiny();
+    let subject = Subject { state: &state, dictionary: &dictionary, names: &["robot"] };
+    let bound = Bound { replicas: 2, mutations: 1 };
+    let run = subject.histories(1, bound, &[MutationKind::RemoveEdge], true).unwrap();
+    let report = checked(&run, Limits::default());
+    assert_eq!(report.verdict, Verdict::Vacuous);
+    let unseen = report.properties.iter().filter(|property| property.verdict == Verdict::Vacuous);
+    assert!(unseen.into_iter().any(|property| property.clause == "remove_edge is done"));
+}
+
+/// Every repair that a common dictionary leaves possible occurs in the smallest run of all six.
+/// `[spec: CHECK-10]` `[spec: VIEW-9]`
+#[test]
+fn law_every_repair_is_witnessed() {
+    let report = checked(&run_of(3, 3, 1, &MutationKind::ALL), Limits::default());
+    let seen: BTreeSet<&str> = report.properties.iter().map(|property| property.clause.as_str()).collect();
+    for repair in ["same-key", "functional", "rt-parent", "cycle-broken", "detached", "reattached", "name-clash"] {
+        assert!(seen.contains(format!("repair: {repair}").as_str()), "{repair} was never seen");
+    }
+    assert_eq!(report.verdict, Verdict::Exhaustive, "{:?}", report.notes);
+}
