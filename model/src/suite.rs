@@ -1,10 +1,13 @@
 //! The suites: which runs `dsr check` makes by default, with `--deep`, and of a graph that it is given.
 
-use crate::checked::Checked;
+use crate::checked::{Act, Checked};
 use crate::checked::alphabet::{ATTRIBUTE, Alphabet};
 use crate::focus::{self, FocusError};
 use crate::histories::{Bound, HistoryRun};
-use dsr_core::{Dictionary, MutationKind, State};
+use crate::job::{Job, ReductionRun};
+use crate::schedules::{Restricted, ScheduleBound, ScheduleRun};
+use crate::semantics::Semantics;
+use dsr_core::{Dictionary, Mutation, MutationKind, MutationKind as K, RT, State};
 use std::sync::Arc;
 
 /// The vertices of the embedded flat that searches focus on: each focus is the first few of them.
@@ -60,9 +63,24 @@ impl Subject<'_> {
         Ok(runs)
     }
 
+    /// The runs of L2: all six kinds, and four concrete mutations twice each. `[spec: CHECK-6]`
+    pub fn schedules(&self) -> Result<Vec<Box<dyn Job>>, FocusError> {
+        let once = ScheduleBound { replicas: 2, readers: 0, mutations: 1, restarts: 1, resynchronisations: 1 };
+        let twice = ScheduleBound { mutations: 2, ..once };
+        let all = self.histories(SCHEDULE_FOCUS, Bound { replicas: 2, mutations: 1 }, &MutationKind::ALL, true)?;
+        let (focus, everything) = (all.focus, all.semantics);
+        let four = Arc::new(Restricted { mutations: four_mutations(&everything), whole: everything.clone() });
+        let reader = ScheduleBound { readers: 1, ..once };
+        Ok(vec![
+            Box::new(ScheduleRun { name: "2 × 1, all six".into(), semantics: everything.clone(), focus, bound: once }),
+            Box::new(ScheduleRun { name: "2 × 2, four mutations".into(), semantics: four.clone(), focus, bound: twice }),
+            Box::new(ReductionRun { name: "2 × 1 and a reader, all six".into(), semantics: everything, bound: reader }),
+            Box::new(ReductionRun { name: "2 × 2, four mutations".into(), semantics: four, bound: twice }),
+        ])
+    }
+
     /// The runs of `--deep`, smallest first. `[spec: CHECK-3]`
     pub fn deep_histories(&self) -> Result<Vec<HistoryRun<Checked>>, FocusError> {
-        use MutationKind as K;
         let structural = [[K::MoveEdge, K::RemoveVertex], [K::AddVertex, K::RemoveVertex], [K::RemoveEdge, K::RemoveVertex]];
         let bounds = [(2, 3), (4, 2), (3, 3)];
         let mut runs = Vec::new();
@@ -78,6 +96,20 @@ impl Subject<'_> {
         runs.push(self.histories(2, Bound { replicas: 3, mutations: 2 }, &K::ALL, false)?);
         Ok(runs)
     }
+}
+
+/// Schedules are many: L2 looks at this many vertices.
+const SCHEDULE_FOCUS: usize = 2;
+
+/// Four mutations that meet: two moves that together close a cycle, an update, and a removal.
+fn four_mutations(semantics: &Checked) -> Vec<Act> {
+    let initial = semantics.initial();
+    let enabled = |mutation: &Act| semantics.mutate(&initial, 0, mutation).is_some();
+    let mutations: Vec<Act> = semantics.mutations(&initial, 0).into_iter().filter(enabled).collect();
+    let is_kinematic = |act: &&Act| matches!(&act.0, Mutation::MoveEdge { to, .. } if &*to.label == RT);
+    let last = |kind: MutationKind| mutations.iter().filter(move |act| act.0.kind() == kind).next_back();
+    let moves = mutations.iter().filter(is_kinematic).take(2);
+    moves.chain(last(K::UpdateAttributes)).chain(last(K::RemoveVertex)).cloned().collect()
 }
 
 /// Every pair of different kinds.

@@ -45,6 +45,9 @@ fn suite(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
             jobs.push(Box::new(AlgebraRun { semantics: Arc::clone(&semantics), records }));
         }
     }
+    if wanted(Layer::L2) {
+        jobs.extend(subject.schedules().map_err(|error| error.to_string())?);
+    }
     if wanted(Layer::Scenario) {
         for (file, text) in shipped() {
             let scenario = Scenario::read(text, file).map_err(|error| error.to_string())?;
