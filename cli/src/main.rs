@@ -1,5 +1,6 @@
 //! The `dsr` command: checks, shows and converts Deep State Representation graphs.
 
+mod alarms;
 mod check;
 mod input;
 mod output;
@@ -22,6 +23,7 @@ struct Arguments {
 #[derive(Subcommand, Debug)]
 enum Command {
     Check(check::Arguments),
+    Alarms(alarms::Arguments),
     /// Checks, shows, converts and compares scenes: graph files of the published system
     #[command(subcommand)]
     Scene(scene::Command),
@@ -31,6 +33,7 @@ impl Command {
     fn run(&self) -> Status {
         match self {
             Self::Check(arguments) => arguments.run(),
+            Self::Alarms(arguments) => arguments.run(),
             Self::Scene(command) => command.run(),
         }
     }
