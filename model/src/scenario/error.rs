@@ -194,7 +194,7 @@ fn hint(nearest: Option<&str>) -> String {
 /// The known name most like this one, if any is alike.
 pub(super) fn nearest<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> Option<String> {
     let alike = known.map(|other| (distance(name, other), other)).min()?;
-    let most = (name.chars().count() / 3).max(1);
+    let most = name.chars().count() / 3 + 1;
     (alike.0 <= most).then(|| alike.1.to_owned())
 }
 

@@ -6,6 +6,7 @@ use super::script::Conduct;
 use super::space::{Broken, Choice, Space};
 use serde::Serialize;
 use serde_json::Value as Json;
+use std::cmp::Reverse;
 use std::collections::BTreeSet;
 use std::fmt;
 
@@ -178,7 +179,7 @@ impl<S: Replicated> Teller<'_, S> {
             .iter()
             .enumerate()
             .filter(|(_, known)| can(known))
-            .max_by_key(|(_, known)| known.len());
+            .min_by_key(|(_, known)| Reverse(known.len()));
         let who = best.map(|(at, _)| at);
         self.receive(who, seen.iter().copied());
         self.see(self.name(who), state);
