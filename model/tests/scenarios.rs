@@ -10,6 +10,7 @@ use dsr_model::scenario::{
 use std::sync::Arc;
 
 /// A scenario on two rooms with a robot and a person in one of them.
+#[allow(clippy::unwrap_used, reason = "a test's own input is fine or the test fails")]
 fn small(replicas: &str, properties: &str) -> Scenario {
     let text = format!(
         r#"{{"format": 1, "name": "small", "about": "A test.", "scene": "@empty", "dictionary": "@aal",

@@ -24,6 +24,7 @@ fn law_the_fine_scenario_is_fine() {
 
 /// Replaces one text in the fine scenario, and expects this error.
 #[track_caller]
+#[allow(clippy::unwrap_used, reason = "a spoiled scenario that is read is a test that fails")]
 fn check(old: &str, new: &str, expected: &str) {
     assert_eq!(FINE.matches(old).count(), 1, "{old} is not there once");
     let error = Scenario::read(&FINE.replace(old, new), "fine.json").unwrap_err().to_string();
@@ -73,6 +74,11 @@ fn law_errors_name_place_values_and_remedy() {
         r#""otherwise": "skip""#,
         r#"replicas[0].script[0]: no field "otherwise" belongs here; the fields are note, when, do, else, refused, repeat"#,
     );
+}
+
+/// `[spec: SCEN-14]` `[spec: SCEN-1]`
+#[test]
+fn law_errors_of_replicas_and_scenes() {
     check(r#""format": 1"#, r#""format": 2"#, "format: 2 is out of range; allowed are 1 to 1");
     check(r#""format": 1, "#, "", r#"the field "format" is missing"#);
     check(r#""budget": 1"#, r#""budget": "one""#, "replicas[1].budget: expected a whole number, found text");
@@ -88,7 +94,7 @@ fn law_errors_name_place_values_and_remedy() {
         r#"replicas[1].name: "camera" is the name of another replica"#,
     );
     check(r#""name": "free", "alphabet""#, r#""name": "free", "script": [], "alphabet""#, "replicas[1]");
-    check(r#"["robot"]"#, r#"["mug"]"#, r#"focus[0]: there is no vertex"#);
+    check(r#"["robot"]"#, r#"["mug"]"#, "focus[0]: there is no vertex");
     check(
         r#""@flat""#,
         r#""@house""#,
@@ -97,6 +103,11 @@ fn law_errors_name_place_values_and_remedy() {
     check(r#""@flat""#, r#""house.json""#, r#"scene: cannot be opened: the scene "house.json": "#);
     check(r#""@flat""#, r#"{"DSRModel": {}}"#, "scene: the scene has faults: ");
     check(r#""level": 3"#, r#""level": null, "priority": null"#, "setup[0]: the setup cannot do this: ");
+}
+
+/// `[spec: SCEN-14]` `[spec: SCEN-7]` `[spec: SCEN-8]`
+#[test]
+fn law_errors_of_properties_and_links() {
     check(
         r#"{"vertex": {"name": "mug"}}"#,
         r#"{"vertices": {}}"#,

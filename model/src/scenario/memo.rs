@@ -48,6 +48,9 @@ pub(super) enum Next {
     Stopped,
 }
 
+/// The mutations of one step, as made, and their delta.
+type Group = (Arc<[Act]>, Delta);
+
 /// How far a replica is: step and repetition of a script, or mutations made of a budget.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(super) struct Position {
@@ -266,12 +269,7 @@ impl<S: Replicated> Memo<S> {
     }
 
     /// The mutations of a step one after the other, as one delta; `None` if one is refused. `[spec: SCEN-5]`
-    fn group(
-        &mut self,
-        state: StateId,
-        replica: usize,
-        step: &ScriptStep,
-    ) -> Result<Option<(Arc<[Act]>, Delta)>, Breach> {
+    fn group(&mut self, state: StateId, replica: usize, step: &ScriptStep) -> Result<Option<Group>, Breach> {
         let start = self.state(state);
         let (mut now, mut whole, mut acts) = ((*start).clone(), Delta::new(), Vec::new());
         for named in &step.mutations {
@@ -279,7 +277,8 @@ impl<S: Replicated> Memo<S> {
             let act = Act(mutation);
             let Some(Step { delta, after }) = self.judged_step(&now, replica, &act)? else { return Ok(None) };
             whole.join(&delta);
-            (now, _) = (after, acts.push(act));
+            now = after;
+            acts.push(act);
         }
         if step.mutations.len() > 1 && self.semantics.join(&start, &whole) != now {
             return Err(Breach::new("MUT-0.4", "a group of mutations is not the join of its deltas"));

@@ -121,7 +121,7 @@ impl Reader<'_> {
             "if" => return cursor.fault(Fault::Needs { field: "if", needed: "`then`" }),
             "then" => return cursor.fault(Fault::Needs { field: "then", needed: "`if`" }),
             "done" if self.end => return Ok(Predicate::Done(self.scope.replica(&body)?)),
-            "done" => return cursor.fault(Fault::DoneBeforeEnd),
+            "done" => return body.fault(Fault::DoneBeforeEnd),
             "vertex" => Atom::vertex(&body, self.scope)?,
             "edge" => Atom::edge(&body, self.scope)?,
             "attribute" => Atom::attribute(&body, self.scope)?,
