@@ -275,8 +275,8 @@ fn law_a_free_replica_does_anything_within_its_alphabet() {
     assert!(report.is_as_expected() && report.states > 10);
 }
 
-/// The bed as two mutations: the false alarm that the shipped scenario avoids by a group. The counterexample
-/// has one mutation, and none is shorter. `[spec: SCEN-13]` `[spec: SCEN-8]`
+/// The bed as two mutations: the false alarm that the shipped scenario avoids by a group. Two mutations are
+/// needed, and two are told. `[spec: SCEN-13]` `[spec: SCEN-8]`
 #[test]
 fn law_a_false_property_yields_a_shortest_counterexample() {
     let (file, text) = shipped()[0];
@@ -425,7 +425,7 @@ fn checked(scenario: &Scenario) -> Checked {
     }
 }
 
-/// The alarms: a broken core is found in every scenario with a removal, and the sound one in none.
+/// The alarm: a broken core is found, and the sound one behind the same wrapper is not.
 /// `[spec: SCEN-11]`
 #[test]
 fn law_a_broken_core_is_found() {
