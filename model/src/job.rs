@@ -218,8 +218,8 @@ fn scenario_properties(report: &scenario::Report) -> Vec<PropertyReport> {
         expanded: 1,
         unseen: 0,
     });
-    let clause = report.breach.as_ref().map_or("every clause of L1", |breach| breach.clause);
-    let judged = PropertyReport { verdict: own, ..PropertyReport::always(clause, "", "invariants, convergence, intent") };
+    let clause = report.breach.as_ref().map_or("clauses of L1", |breach| breach.clause);
+    let judged = PropertyReport { verdict: own, ..PropertyReport::always(clause, "", "convergence, invariants, repairs, intent; not resynchronisation") };
     let properties = report.properties.iter().map(|property| {
         let (kind, verdict) = match property.verdict {
             scenario::Verdict::Holds => (PropertyKind::Always, Verdict::Exhaustive),
