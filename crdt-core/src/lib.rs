@@ -35,6 +35,7 @@ extern crate std;
 
 #[cfg(feature = "arbitrary")]
 mod arbitrary;
+mod cloud;
 mod codec;
 mod context;
 mod dictionary;

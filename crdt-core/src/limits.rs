@@ -10,8 +10,8 @@ pub const ATTRIBUTES_MAX: usize = 1024;
 pub const STAMP_MAX: u64 = (1 << 53) - 1;
 /// The greatest sequence of a replica; beyond it a mutation is refused. `[spec: LIMIT-6]`
 pub const SEQUENCE_MAX: u64 = (1 << 53) - 1;
-/// The most dots beyond gaps that a decoded context may name. `[spec: LIMIT-7]`
-pub const CLOUD_DOTS_MAX: usize = 1 << 20;
+/// The most runs beyond gaps that a decoded context may name. `[spec: LIMIT-7]`
+pub const CLOUD_RUNS_MAX: usize = 1 << 20;
 /// The most records that a decoded state may hold. `[spec: LIMIT-8]`
 pub const RECORDS_MAX: usize = 1 << 24;
 /// The largest encoded state, in bytes. `[spec: LIMIT-9]`

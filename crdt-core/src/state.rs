@@ -4,7 +4,7 @@
 //! direction. [`State::merge`] takes the pointwise maximum; [`State::close`] lets what is anchored to the
 //! dead die with it; [`State::join`] is one after the other and the join of a semilattice.
 
-use crate::context::CausalContext;
+use crate::context::{CausalContext, Run};
 use crate::dot::{Dot, ReplicaId};
 use crate::record::{Edge, Rank, Record, Vertex, Write};
 use alloc::collections::BTreeMap;
@@ -49,9 +49,24 @@ impl State {
         self.store.remove(&dot);
     }
 
-    /// Marks dots as seen, whether held or not.
-    pub(crate) fn observe(&mut self, dots: &CausalContext) {
-        self.context.join(dots);
+    /// Marks a run of dots as seen, whether held or not.
+    pub(crate) fn observe(&mut self, run: Run) {
+        self.context.insert_run(run);
+    }
+
+    /// Takes over what `other` says of a run that it has seen: its records, shared, and its deaths.
+    pub(crate) fn take_run(&mut self, other: &Self, run: Run) {
+        self.observe(run);
+        let held = other.store.range(run.bounds());
+        self.store.extend(held.map(|(&dot, record)| (dot, Arc::clone(record))));
+    }
+
+    /// The dead dots of `run`, as ascending runs. O(log n + the records and runs in it).
+    pub(crate) fn dead_within(&self, run: Run) -> impl Iterator<Item = Run> + '_ {
+        self.context.runs_within(run).flat_map(|seen| {
+            let held = self.store.range(seen.bounds());
+            seen.without(held.map(|(dot, _)| (dot.sequence, dot.sequence)))
+        })
     }
 
     /// Every dot that has been seen.
@@ -161,25 +176,21 @@ impl State {
             }
         }
         // A dot that arrives dead can be the anchor of a record that waits here.
-        disturbed |= other.context.unseen_by(&self.context).any(|dot| !other.holds(dot));
+        disturbed |=
+            other.context.unseen_runs_by(&self.context).any(|run| other.dead_within(run).next().is_some());
         self.context.join(&other.context);
         disturbed
     }
 
-    /// Drops the records held here that `other` has seen and does not hold; whether one of them can have
-    /// been an anchor. Visits only dots that `other` has seen.
+    /// Drops the records held here that `other` has seen and does not hold; whether there were any. Visits only records that `other` has seen.
     fn drop_dead_in(&mut self, other: &Self) -> bool {
-        let seen = other.context.vector().flat_map(|(replica, last)| {
-            self.store.range(Dot::new(replica, 1)..=Dot::new(replica, last)).map(|(&dot, _)| dot)
-        });
-        let beyond = other.context.cloud().filter(|&dot| self.holds(dot));
-        let dead: Vec<Dot> = seen.chain(beyond).filter(|&dot| !other.holds(dot)).collect();
-        let mut anchor_died = false;
-        for dot in dead {
-            let dropped = self.store.remove(&dot);
-            anchor_died |= dropped.is_some_and(|record| !matches!(*record, Record::Write(_)));
+        let seen = other.context.runs().flat_map(|run| self.store.range(run.bounds()));
+        let dead: Vec<Dot> = seen.map(|(&dot, _)| dot).filter(|&dot| !other.holds(dot)).collect();
+        for dot in &dead {
+            self.store.remove(dot);
         }
-        anchor_died
+        // A write is no anchor, but a hostile record may wait for one: see the regression of that name.
+        !dead.is_empty()
     }
 
     /// Drops every record anchored to a dead dot, until none is left: a closure operator.

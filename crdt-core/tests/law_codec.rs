@@ -247,18 +247,42 @@ fn regress_declared_length_of_petabytes() {
     }
 }
 
-/// Eight bytes that name a thousand million dots one by one. `[spec: ENC-5]` `[spec: LIMIT-7]`
+/// Few bytes that name a thousand million dots are a few runs, before a gap and beyond it.
+/// `[spec: ENC-5]` `[spec: CTX-2]`
 #[test]
 fn regress_cloud_of_a_thousand_million_dots() {
     let billion = [0xff, 0xff, 0xff, 0xff, 0x03];
-    let bytes = [&[1, 0, 1, 1, 0, 1, 1], &billion[..], &[0, 0]].concat();
+    for skip in [0, 1] {
+        let bytes = [&[1, 0, 1, 1, 0, 1, skip], &billion[..], &[0, 0]].concat();
+        let state = decode(&bytes).unwrap();
+        let first = 1 + u64::from(skip);
+        let run = Run { replica: ReplicaId::agent(1), first, last: first + (1 << 30) - 1 };
+        assert_eq!(state.context().runs().collect::<Vec<_>>(), [run]);
+        assert_eq!(encode(&state), bytes);
+        assert_eq!(state.joined(&State::new()), state);
+    }
+    // A digest of it, and of its records only as many as a state may hold.
+    let context: CausalContext =
+        [Run { replica: ReplicaId::agent(1), first: 2, last: limits::SEQUENCE_MAX }].into_iter().collect();
+    let digest =
+        Digest { context, live: vec![Run { replica: ReplicaId::agent(1), first: 9, last: 1 << 20 }] };
+    assert_eq!(decode_digest(&encode_digest(&digest)), Ok(digest));
+}
+
+/// `[spec: ENC-5]` `[spec: LIMIT-7]`
+#[test]
+fn regress_more_runs_beyond_gaps_than_allowed() {
+    let replica = ReplicaId::agent(1);
+    let with_runs = |count: u64| {
+        let runs = (1..=count).map(|at| Run { replica, first: at * 2, last: at * 2 });
+        encode(&State::assemble([], runs.collect()))
+    };
+    let most = with_runs(1 << 20);
+    assert_eq!(encode(&decode(&most).unwrap()), most);
     assert_eq!(
-        decode(&bytes).unwrap_err().to_string(),
-        "at byte 6: the number of dots beyond gaps is over 1048576"
+        decode(&with_runs((1 << 20) + 1)).unwrap_err().to_string(),
+        "at byte 2097160: the number of runs beyond gaps is over 1048576"
     );
-    // Without a gap it is one number.
-    let bytes = [&[1, 0, 1, 1, 0, 1, 0], &billion[..], &[0, 0]].concat();
-    assert_eq!(decode(&bytes).unwrap().context().prefix(ReplicaId::agent(1)), 1 << 30);
 }
 
 /// `[spec: ENC-5]` `[spec: LIMIT-6]`

@@ -178,11 +178,22 @@ fn regress_runs_in_another_spelling() {
     }
     check_refused::<CausalContext>(r#"{"r1": "1", "r1": "2"}"#, "twice");
     check_refused::<CausalContext>(r#"{"r1": "1-9007199254740992"}"#, "[LIMIT-6]");
-    check_refused::<CausalContext>(r#"{"r1": "3-1048579"}"#, "[LIMIT-7]");
-    let context: CausalContext =
-        serde_json::from_str(r#"{"r1": "1-9007199254740991", "r2+1": "3-1048578"}"#).unwrap();
-    assert_eq!(context.cloud().len(), 1 << 20);
-    assert_eq!(text(&context), r#"{"r1":"1-9007199254740991","r2+1":"3-1048578"}"#);
+    let all = r#"{"r1":"1-9007199254740991","r2+1":"3-9007199254740991"}"#;
+    let context: CausalContext = serde_json::from_str(all).unwrap();
+    assert_eq!(context.cloud_runs().count(), 1);
+    assert_eq!(text(&context), all);
+}
+
+/// `[spec: JSON-11]` `[spec: LIMIT-7]`
+#[test]
+fn regress_more_runs_beyond_gaps_than_allowed() {
+    let spelled = |count: u64| {
+        let runs: Vec<String> = (1..=count).map(|at| (at * 2).to_string()).collect();
+        format!(r#"{{"r1": "{}"}}"#, runs.join(","))
+    };
+    let context: CausalContext = serde_json::from_str(&spelled(1 << 20)).unwrap();
+    assert_eq!(context.cloud_runs().count(), 1 << 20);
+    check_refused::<CausalContext>(&spelled((1 << 20) + 1), "[LIMIT-7]");
 }
 
 /// `[spec: JSON-13]`

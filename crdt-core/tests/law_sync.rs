@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
 
 use dsr_core::{
-    CausalContext, Dot, State, check_digest, check_well_formed, delta_for, digest, encode, fingerprint,
+    CausalContext, Digest, Dot, Record, ReplicaId, Run, State, Value, Vertex, VertexId, Write, check_digest,
+    check_well_formed, decode, delta_for, digest, encode, fingerprint, limits,
 };
 use dsr_testkit::{Anchors, Universe, state, states};
 use proptest::prelude::*;
@@ -124,4 +125,69 @@ fn regress_long_histories_are_not_walked() {
     let twice = long.joined(&long);
     assert_eq!(twice, long);
     assert_eq!(delta_for(&long, &digest(&twice)), State::new());
+}
+
+fn vertex(name: &str) -> Record {
+    Record::Vertex(Vertex { vertex_type: "room".into(), name: name.into(), external_id: None, stamp: 1 })
+}
+
+/// Over a million missed dots, nearly all of them dead, are a few runs: the delta fits what a decoder takes,
+/// and brings the other up to date. `[spec: SYNC-3]` `[spec: LIMIT-7]`
+#[test]
+fn regress_a_delta_of_a_million_missed_dots() {
+    let r1 = |sequence| Dot::new(ReplicaId::agent(1), sequence);
+    let run = |first, last| Run { replica: ReplicaId::agent(1), first, last };
+    let records = [(r1(2), vertex("a")), (r1(700_000), vertex("b")), (r1(1_048_600), vertex("c"))];
+    let b = State::assemble(records, [run(1, 1_048_600)].into_iter().collect());
+    let a = State::assemble([(r1(1), vertex("z"))], [r1(1)].into_iter().collect());
+    let delta = delta_for(&b, &digest(&a));
+    assert_eq!(delta.context().runs().collect::<Vec<_>>(), [run(1, 1_048_600)], "with the death of r1.1");
+    assert_eq!(decode(&encode(&delta)).as_ref(), Ok(&delta));
+    assert_eq!(a.joined(&delta), a.joined(&b));
+    // The same where a gap stays open.
+    let late = State::assemble([(r1(9), vertex("c"))], [run(3, 1_048_600)].into_iter().collect());
+    let delta = delta_for(&late, &digest(&State::new()));
+    assert_eq!(decode(&encode(&delta)).as_ref(), Ok(&late));
+    assert_eq!(delta, late);
+}
+
+/// Who has seen nothing asks one that has seen as much as sequences allow, and the other way round.
+/// `[spec: SYNC-3]` `[spec: LIMIT-6]`
+#[test]
+fn regress_histories_of_all_sequences_are_not_walked() {
+    let all = Run { replica: ReplicaId::agent(1), first: 1, last: limits::SEQUENCE_MAX };
+    let dot = Dot::new(all.replica, 1 << 40);
+    let long = State::assemble([(dot, vertex("a"))], [all].into_iter().collect());
+    let nothing = State::new();
+    assert_eq!(delta_for(&long, &digest(&nothing)), long);
+    assert_eq!(nothing.joined(&long), long);
+    assert_eq!(delta_for(&nothing, &digest(&long)), nothing);
+    let dead = State::assemble([], [all].into_iter().collect());
+    assert_eq!(long.joined(&dead), dead);
+    assert_eq!(
+        delta_for(&dead, &digest(&long)).context().runs().collect::<Vec<_>>(),
+        [Run { first: 1 << 40, last: 1 << 40, ..all }]
+    );
+    // A digest that was not checked claims that very many dots live, or none at all.
+    let live = vec![all, Run { first: 0, last: u64::MAX, ..all }, Run { first: 9, last: 3, ..all }];
+    let hostile = Digest { context: CausalContext::new(), live };
+    assert_eq!(delta_for(&long, &hostile), long);
+}
+
+/// `[spec: SYNC-3]`
+#[test]
+fn regress_payloads_are_shared_with_the_delta() {
+    let dot = Dot::new(ReplicaId::agent(1), 1);
+    let value = Value::ByteVec(vec![7; 1 << 20].into());
+    let write = Write { target: VertexId::ROOT.0, name: "map".into(), value, timestamp_ns: 0, stamp: 1 };
+    let state = State::assemble([(dot, Record::Write(write))], [dot].into_iter().collect());
+    let delta = delta_for(&state, &digest(&State::new()));
+    assert!(std::ptr::eq(delta.get(dot).unwrap(), state.get(dot).unwrap()));
+}
+
+/// The example of the chapter, hashed by another implementation of `SipHash`. `[spec: SYNC-4]`
+#[test]
+fn oracle_fingerprint_of_an_example() {
+    let example = state("dead r1.3 r1.4\nr1.5 edge root -near-> r2.1 @3");
+    assert_eq!(fingerprint(&example).to_string(), "cb03d9d27daf89107fa9515e70775765");
 }

@@ -51,7 +51,7 @@ fn replicas_of(state: &State, context: &[Run]) -> BTreeSet<ReplicaId> {
 
 /// The state that canonical bytes spell. Any bytes may be given. `[spec: ENC-1]` `[spec: ENC-10]`
 ///
-/// O(n log n) in the bytes and in the dots beyond gaps, which [`limits::CLOUD_DOTS_MAX`] bounds.
+/// O(n log n) in the bytes, however many dots their runs name.
 pub fn decode(bytes: &[u8]) -> Result<State, DecodeError> {
     let mut reader = Reader::new(bytes, KIND_STATE)?;
     let mut replicas = Replicas::read(&mut reader)?;
@@ -66,19 +66,18 @@ pub fn decode(bytes: &[u8]) -> Result<State, DecodeError> {
     Ok(state)
 }
 
-/// Reads a context; what lies beyond gaps is stored dot by dot, so it is counted first. `[spec: ENC-5]`
+/// Reads a context; the runs beyond gaps are counted before they are stored. `[spec: ENC-5]`
 pub(super) fn read_context(
     reader: &mut Reader<'_>,
     replicas: &mut Replicas,
 ) -> Result<CausalContext, DecodeError> {
     let mut context = CausalContext::new();
-    let mut left = limits::CLOUD_DOTS_MAX as u64;
+    let mut left = limits::CLOUD_RUNS_MAX;
     let ids = replicas.ids.clone();
     runs::read(reader, &ids, |offset, run| {
         if run.first > 1 {
-            let (what, max) = ("the number of dots beyond gaps", limits::CLOUD_DOTS_MAX as u64);
-            let dots = run.last - run.first + 1;
-            left = left.checked_sub(dots).ok_or(DecodeError::TooGreat { offset, what, max })?;
+            let (what, max) = ("the number of runs beyond gaps", limits::CLOUD_RUNS_MAX as u64);
+            left = left.checked_sub(1).ok_or(DecodeError::TooGreat { offset, what, max })?;
         }
         replicas.mark(run);
         context.insert_run(run);

@@ -75,10 +75,10 @@ impl Serialize for CausalContext {
 impl<'de> Deserialize<'de> for CausalContext {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let mut context = Self::new();
-        let mut beyond_gaps = 0_u64;
+        let mut beyond_gaps = 0_usize;
         for run in Runs::deserialize(deserializer)?.0 {
             if run.first > 1 {
-                beyond_gaps = beyond_gaps.saturating_add(run.last - run.first + 1);
+                beyond_gaps = beyond_gaps.saturating_add(1);
             }
             if run.last > limits::SEQUENCE_MAX {
                 return Err(D::Error::custom(format_args!(
@@ -88,11 +88,10 @@ impl<'de> Deserialize<'de> for CausalContext {
                     limits::SEQUENCE_MAX
                 )));
             }
-            // A short text can name very many dots: judge before they are stored one by one.
-            if beyond_gaps > limits::CLOUD_DOTS_MAX as u64 {
+            if beyond_gaps > limits::CLOUD_RUNS_MAX {
                 return Err(D::Error::custom(format_args!(
-                    "a context names over {} dots beyond gaps [LIMIT-7]",
-                    limits::CLOUD_DOTS_MAX
+                    "a context names over {} runs beyond gaps [LIMIT-7]",
+                    limits::CLOUD_RUNS_MAX
                 )));
             }
             context.insert_run(run);

@@ -131,7 +131,7 @@ fn witnesses_of(view: &View<'_>) -> Witnesses {
     if state.records().any(|(_, record)| record.anchors().any(unseen)) {
         seen.insert(Witnesses::bit(PENDING));
     }
-    if state.context().cloud().len() > 0 {
+    if state.context().cloud_runs().next().is_some() {
         seen.insert(Witnesses::bit(CLOUD));
     }
     seen

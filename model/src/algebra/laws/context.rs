@@ -33,7 +33,7 @@ pub(super) fn union<S: Algebra>(space: &mut Space<'_, S>, tally: &mut Tally) {
 pub(super) fn compact<S: Algebra>(space: &mut Space<'_, S>, tally: &mut Tally) {
     merged_contexts(space, |x, y, context| {
         let holds = context.vector().all(|(_, sequence)| sequence > 0)
-            && context.cloud().all(|dot| dot.sequence >= context.prefix(dot.replica) + 2)
+            && context.cloud_runs().all(|run| run.first >= context.prefix(run.replica) + 2)
             && context.runs().flat_map(dsr_core::Run::dots).collect::<CausalContext>() == *context;
         tally.instance(holds, |clause| space.example(clause, &[("X", x), ("Y", y)], &format!("{context:?}")));
     });
