@@ -179,7 +179,7 @@ fn oracle_add_vertex_refuses_impossible_links() {
         (linked("x", "", flat.hall), NewEdgeError::LabelLength { bytes: 0 }),
         (linked("x", &"l".repeat(256), flat.hall), NewEdgeError::LabelLength { bytes: 256 }),
         (linked("x", RT, ROOT), NewEdgeError::IntoRoot),
-        (linked("x", RT, flat.hall), NewEdgeError::ParentOutsideTree { parent: ROOT }),
+        (linked("x", RT, flat.hall), NewEdgeError::NewVertexAsParent { child: flat.hall }),
         (child(flat.robot, "x"), NewEdgeError::ParentOutsideTree { parent: flat.robot }),
         (entered("x", "in", flat.robot), functional(key(flat.robot, "in", flat.kitchen))),
     ];
@@ -612,4 +612,41 @@ fn oracle_counters_run_out_with_an_error() {
     refused(&late, &to, MoveEdgeError::from(error));
     assert!(late.attempt(&remove(key(flat.drone, "sees", flat.hall))).is_ok());
     assert!(late.attempt(&destroy(flat.drone)).is_ok());
+}
+
+/// An unset makes no record: it needs no sequence and no stamp, and is refused for the want of neither.
+/// [spec: MUT-0.3] [spec: MUT-0.2] [spec: MUT-3.5]
+#[test]
+fn regress_unsets_need_no_counter() {
+    let mut room = Peer::new(1);
+    let here = of(room.child(ROOT, "room"));
+    room.apply(&set(here, "light", 1_i32));
+    let write = room.view().attribute(here, "light").unwrap().0;
+    let mut seen = CausalContext::new();
+    seen.insert_prefix(ReplicaId::agent(1), limits::SEQUENCE_MAX);
+    let greatest =
+        Vertex { vertex_type: "t".into(), name: "n".into(), external_id: None, stamp: limits::STAMP_MAX };
+    let without_sequences = room.state.joined(&State::assemble(
+        room.state.records().map(|(dot, record)| (dot, record.clone())).collect::<Vec<_>>(),
+        seen,
+    ));
+    let without_stamps = room
+        .state
+        .joined(&State::assemble([(dot(7, 1), Record::Vertex(greatest))], [dot(7, 1)].into_iter().collect()));
+    let both = Mutation::UpdateAttributes {
+        target: here,
+        updates: AttributeUpdates::from([("light".into(), None), ("power".into(), Some(Value::Int(1)))]),
+    };
+    let spent = [
+        (without_sequences, ExhaustedError::Sequences { replica: ReplicaId::agent(1) }),
+        (without_stamps, ExhaustedError::Stamps),
+    ];
+    for (state, error) in spent {
+        let mut peer = Peer { state, ..room.clone() };
+        refused(&peer, &both, UpdateAttributesError::from(error));
+        let delta = peer.apply(&unset(here, "light"));
+        assert!(delta.is_empty());
+        assert_eq!(dots(&delta), [write]);
+        assert_eq!(peer.value(VertexId(here.dot()), "light"), None);
+    }
 }

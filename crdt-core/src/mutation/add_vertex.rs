@@ -126,12 +126,8 @@ fn check_link(view: &View<'_>, link: &VertexLink) -> Result<(), super::NewEdgeEr
     }
     if &*link.label == RT {
         if link.outgoing {
-            // The new vertex has no place in the tree yet, so it cannot be a parent.
-            return if link.other.is_root() {
-                Err(E::IntoRoot)
-            } else {
-                Err(E::ParentOutsideTree { parent: VertexId::ROOT })
-            };
+            let child = link.other;
+            return Err(if child.is_root() { E::IntoRoot } else { E::NewVertexAsParent { child } });
         }
         return new_edge::check_parent(view, link.other);
     }

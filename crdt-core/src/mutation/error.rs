@@ -126,6 +126,15 @@ pub enum NewEdgeError {
         /// The parent.
         parent: VertexId,
     },
+    /// A new vertex is linked as the kinematic parent of one in the graph. `[spec: MUT-1.1]`
+    #[error(
+        "a new vertex cannot be the kinematic parent of {child}: it has no place in the tree yet; link it as a \
+         child, then move {child}"
+    )]
+    NewVertexAsParent {
+        /// The vertex in the graph.
+        child: VertexId,
+    },
     /// The parent is a descendant of the child.
     #[error("{parent} is below {child} in the kinematic tree: this would close a cycle")]
     Cycle {

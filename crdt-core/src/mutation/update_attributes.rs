@@ -60,14 +60,20 @@ pub fn update_attributes(
         return Err(UpdateAttributesError::UnknownTarget { target });
     }
     check(view, target, updates)?;
-    let mut draft = Draft::new(view.state(), author)?;
-    for (name, value) in updates {
+    let mut delta = Delta::new();
+    for name in updates.keys() {
         for dot in writes_of(view.state(), target.dot(), name) {
-            draft.delta.kill(dot);
+            delta.kill(dot);
         }
-        if let Some(value) = value {
-            draft.write(target.dot(), name, value)?;
-        }
+    }
+    let mut sets = updates.iter().filter_map(|(name, value)| Some((name, value.as_ref()?))).peekable();
+    if sets.peek().is_none() {
+        // An unset makes no record, so it needs neither a dot nor a stamp. [spec: MUT-0.3]
+        return Ok(delta);
+    }
+    let mut draft = Draft { delta, ..Draft::new(view.state(), author)? };
+    for (name, value) in sets {
+        draft.write(target.dot(), name, value)?;
     }
     Ok(draft.delta)
 }
