@@ -297,9 +297,8 @@ fn broken_claim(view: &View<'_>) -> Option<&'static str> {
     if first_unreached(&vertices, edges.iter().map(|edge| (edge.from, edge.to))).is_some() {
         return Some("a path to the root");
     }
-    if has_twins(
-        vertices.iter().filter_map(|&vertex| state.vertex(vertex.0)).map(|vertex| &vertex.name).collect(),
-    ) {
+    let names = vertices.iter().filter_map(|&vertex| state.vertex(vertex.0)).map(|vertex| &*vertex.name);
+    if has_twins(names.chain(["root", "world"]).collect()) {
         return Some("one vertex per name");
     }
     let undeclared = state.records().filter_map(|(dot, _)| state.write(dot)).any(|write| {

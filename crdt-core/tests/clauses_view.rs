@@ -8,8 +8,8 @@ use clauses_common::history::{history, part, parts};
 use clauses_common::*;
 use dsr_core::invariant::{check_repairs, check_view};
 use dsr_core::{
-    AttributeMap, Dictionary, Dot, EdgeId, Mutation, MutationKind, Placement, RT, Repair, ReplicaId, Rule,
-    State, Value, ValueType, VertexId, delta_for, digest, view,
+    AttributeMap, Dictionary, Dot, EdgeId, Mutation, MutationKind, Placement, RT, Record, Repair, ReplicaId,
+    Rule, State, Value, ValueType, Vertex, VertexId, delta_for, digest, view,
 };
 use std::collections::BTreeMap;
 
@@ -163,6 +163,34 @@ fn oracle_a_name_finds_the_least_rank() {
     let mut after = both;
     after.apply(&destroy(older));
     assert_eq!(after.view().vertex_by_name("chair"), Some(newer));
+}
+
+/// Records that no mutation makes: two vertices that have the root's names, one of them twice.
+/// [spec: VIEW-7] [spec: VIEW-9]
+#[test]
+fn regress_the_names_of_the_root_are_taken() {
+    let mut peer = Peer::new(1);
+    for name in ["root", "world", "root"] {
+        let id = peer.child(ROOT, "tmp");
+        let rename = |(dot, record): (Dot, &Record)| match record {
+            Record::Vertex(vertex) if dot == id.0 => {
+                (dot, Record::Vertex(Vertex { name: name.into(), ..vertex.clone() }))
+            }
+            _ => (dot, record.clone()),
+        };
+        let records: Vec<_> = peer.state.records().map(rename).collect();
+        peer.state = State::assemble(records, peer.state.context().clone());
+        check(&peer.state, &peer.dictionary);
+        assert_eq!(peer.view().vertex_by_name(name), Some(ROOT));
+    }
+    let clash = |name: &str, sequence| Repair::NameClash {
+        name: name.into(),
+        shown: ROOT,
+        hidden: VertexId(Dot::new(ReplicaId::agent(1), sequence)),
+    };
+    let clashes = [clash("root", 1), clash("root", 5), clash("world", 3)];
+    assert_eq!(peer.view().repairs(), clashes);
+    assert_eq!(clashes[0].to_string(), "r1.1 is named \"root\" as well: the name finds root");
 }
 
 /// [spec: VIEW-8] [spec: STAMP-2] [spec: STAMP-3] [spec: INV-5]

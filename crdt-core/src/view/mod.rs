@@ -23,6 +23,7 @@ pub use tree::Placement;
 
 use crate::dictionary::Dictionary;
 use crate::dot::{Dot, EdgeId, VertexId};
+use crate::mutation::is_root_name;
 use crate::record::{Edge, EdgeKey, Name, Record, Vertex, Write};
 use crate::state::State;
 use alloc::vec::Vec;
@@ -121,14 +122,16 @@ fn names_of<'s>(
     let mut names: Vec<_> =
         vertices.iter().filter_map(|&id| state.vertex(id.0).map(|v| (&v.name, v.stamp, id))).collect();
     names.sort_unstable();
-    for clash in names.chunk_by(|l, r| l.0 == r.0) {
-        if let [(name, _, shown), rest @ ..] = clash {
-            repairs.extend(rest.iter().map(|&(_, _, hidden)| Repair::NameClash {
-                name: (*name).clone(),
-                shown: *shown,
-                hidden,
-            }));
-        }
+    for namesakes in names.chunk_by(|l, r| l.0 == r.0) {
+        let [(name, _, oldest), younger @ ..] = namesakes else { continue };
+        // No mutation makes a vertex of the root's name, but a record from outside can have it.
+        let (shown, hidden) =
+            if is_root_name(name) { (VertexId::ROOT, namesakes) } else { (*oldest, younger) };
+        repairs.extend(hidden.iter().map(|&(_, _, hidden)| Repair::NameClash {
+            name: (*name).clone(),
+            shown,
+            hidden,
+        }));
     }
     names
 }
@@ -162,7 +165,7 @@ impl<'s> View<'s> {
     /// The vertex that a name finds: the oldest of that name; `root` and `world` find the root.
     /// `[spec: VIEW-7]`
     pub fn vertex_by_name(&self, name: &str) -> Option<VertexId> {
-        if crate::mutation::is_root_name(name) {
+        if is_root_name(name) {
             return Some(VertexId::ROOT);
         }
         let at = self.names.partition_point(|(known, ..)| &***known < name);
@@ -219,7 +222,8 @@ impl<'s> View<'s> {
     }
 
     /// Vertices that only a repair holds: without a path of shown edges to the root, or detached.
-    /// Mutations may not add to them. `[spec: VIEW-5]`
+    /// Mutations 4 to 6 may not add to them; a vertex linked to one shares its lot. `[spec: VIEW-5]`
+    /// `[spec: MUT-4.2]` `[spec: MUT-1.7]`
     pub fn stranded(&self) -> &[VertexId] {
         &self.stranded
     }

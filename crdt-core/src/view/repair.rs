@@ -34,7 +34,8 @@ pub enum Repair {
         /// The oldest vertex.
         vertex: VertexId,
     },
-    /// Two live vertices with one name: the older is found by it. `[spec: VIEW-7]`
+    /// Two live vertices with one name: the older is found by it, and by `root` and `world` the root.
+    /// `[spec: VIEW-7]`
     NameClash {
         /// The name.
         name: Name,
@@ -94,7 +95,8 @@ impl fmt::Display for Repair {
             }
             Self::Reattached { vertex } => write!(f, "{vertex} had no path to the root: it is linked to it"),
             Self::NameClash { name, shown, hidden } => {
-                write!(f, "{hidden} is named {name:?} as well: the name finds {shown}, which is older")
+                write!(f, "{hidden} is named {name:?} as well: the name finds {shown}")?;
+                if shown.is_root() { Ok(()) } else { f.write_str(", which is older") }
             }
             Self::Undeclared { write } => {
                 write!(f, "write {write} is hidden: the dictionary does not declare it so")
