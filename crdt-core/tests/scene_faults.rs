@@ -76,13 +76,13 @@ fn regress_repeated_link() {
 /// [spec: SCENE-13]
 #[test]
 fn regress_two_rt_parents() {
-    let links = format!("{}, {}, {}", link(1, "RT", 2), link(1, "RT", 3), link(1, "RT", 4));
+    let claims = format!("{}, {}, {}", link(1, "RT", 2), link(1, "RT", 3), link(1, "RT", 4));
     let symbols = [
         symbol(2, "left", "", &link(2, "RT", 4)),
         symbol(3, "right", "", &link(3, "RT", 4)),
         symbol(4, "cup", "", ""),
     ];
-    let text = scene(&links, &symbols.join(",\n"));
+    let text = scene(&claims, &symbols.join(",\n"));
     let told = [
         "symbol 1 \"world\", link 2 (RT to 4): 4 \"cup\" has two RT parents: 1 \"world\" and 3 \"right\"",
         "symbol 2 \"left\", link 0 (RT to 4): 4 \"cup\" has two RT parents: 2 \"left\" and 3 \"right\"",
@@ -220,7 +220,7 @@ fn law_the_root_is_named_or_typed_root_or_world() {
 /// [spec: SCENE-12] [spec: SCENE-7]
 #[test]
 fn regress_repeated_ids_names_and_mismatched_keys() {
-    let links = format!("{}, {}", link(1, "RT", 2), link(1, "RT", 3));
+    let claims = format!("{}, {}", link(1, "RT", 2), link(1, "RT", 3));
     let again = symbol(2, "again", "", "");
     let text = scene(&link(1, "RT", 2), &[symbol(2, "hub", "", ""), again].join(",\n"));
     check(
@@ -229,7 +229,7 @@ fn regress_repeated_ids_names_and_mismatched_keys() {
         "hub",
         1,
     );
-    let text = scene(&links, &[symbol(2, "hub", "", ""), symbol(3, "hub", "", "")].join(",\n"));
+    let text = scene(&claims, &[symbol(2, "hub", "", ""), symbol(3, "hub", "", "")].join(",\n"));
     let lines = fault_lines(&text);
     assert_eq!(lines.len(), 2);
     assert!(lines[0].ends_with("link 1 (RT to 3): the link's target 3 is left out for a fault of its own"));
