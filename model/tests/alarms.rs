@@ -10,7 +10,8 @@ fn canary_every_flaw_is_found_and_the_sound_core_by_nothing() {
     for alarm in &report.alarms {
         println!("{:24} {:6.2} s {:?}", alarm.name, alarm.seconds, alarm.layers.last().map(|l| &l.finding));
     }
-    let missed: Vec<&str> = report.alarms.iter().filter(|alarm| !alarm.found).map(|alarm| alarm.name).collect();
+    let missed: Vec<&str> =
+        report.alarms.iter().filter(|alarm| !alarm.found).map(|alarm| alarm.name).collect();
     assert!(missed.is_empty(), "not found: {missed:?}");
     for layer in &report.sound {
         assert_eq!(layer.finding, None, "a false alarm");

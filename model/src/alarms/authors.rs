@@ -17,16 +17,15 @@ impl Flaw for FullContext {
         Some(parts.build())
     }
 
-    fn after(&self, before: &State, delta: &Delta) -> State {
-        // The author itself knows what it meant: the new records, and nothing else of its own is gone.
-        let mut meant = Parts::of(delta);
-        let kept = |dot: &Dot| delta.holds(*dot) || !before.holds(*dot);
-        meant.context = delta.context().runs().flat_map(dsr_core::Run::dots).filter(kept).collect();
-        Sound.after(before, &meant.build())
+    fn after(&self, before: &View<'_>, author: Author, mutation: &Mutation, delta: &Delta) -> State {
+        // The author applies what it meant, not what it sends.
+        Sound
+            .delta(before, author, mutation)
+            .map_or_else(|| before.state().joined(delta), |meant| before.state().joined(&meant))
     }
 }
 
-/// A removal kills the event after each one that it removes, too, seen or not.
+/// A removal also kills the next event of whoever made what it removes, before anybody has seen it.
 #[derive(Debug)]
 pub(super) struct KillsUnseen;
 
@@ -35,8 +34,8 @@ impl Flaw for KillsUnseen {
         let delta = Sound.delta(before, author, mutation)?;
         let mut parts = Parts::of(&delta);
         if matches!(mutation, Mutation::RemoveEdge { .. } | Mutation::RemoveVertex { .. }) {
-            let killed = delta.context().runs().flat_map(dsr_core::Run::dots);
-            parts.context.extend(killed.map(|dot| Dot::new(dot.replica, dot.sequence + 1)));
+            let authors = delta.context().runs().map(|run| run.replica);
+            parts.context.extend(authors.filter_map(|replica| before.state().next_dot(replica)));
         }
         Some(parts.build())
     }
@@ -101,7 +100,9 @@ pub(super) struct RefusalConsumes;
 
 impl Flaw for RefusalConsumes {
     fn delta(&self, before: &View<'_>, author: Author, mutation: &Mutation) -> Option<Delta> {
-        let consumed = || Some(State::assemble([], CausalContext::from_iter([before.state().next_dot(author.replica)?])));
+        let consumed = || {
+            Some(State::assemble([], CausalContext::from_iter([before.state().next_dot(author.replica)?])))
+        };
         Sound.delta(before, author, mutation).or_else(consumed)
     }
 }
@@ -113,7 +114,11 @@ pub(super) struct UpdateKeepsOld;
 impl Flaw for UpdateKeepsOld {
     fn delta(&self, before: &View<'_>, author: Author, mutation: &Mutation) -> Option<Delta> {
         let delta = Sound.delta(before, author, mutation)?;
-        if matches!(mutation, Mutation::UpdateAttributes { .. }) { Some(without_kills(&delta)) } else { Some(delta) }
+        if matches!(mutation, Mutation::UpdateAttributes { .. }) {
+            Some(without_kills(&delta))
+        } else {
+            Some(delta)
+        }
     }
 }
 

@@ -29,9 +29,10 @@ pub trait Flaw: Send + Sync + Debug {
         mutation.delta(before, author).ok()
     }
 
-    /// What the author itself makes of the mutation.
-    fn after(&self, before: &State, delta: &Delta) -> State {
-        self.close(self.merge(before, delta))
+    /// What the author itself makes of a mutation whose delta is `delta`.
+    fn after(&self, before: &View<'_>, author: Author, mutation: &Mutation, delta: &Delta) -> State {
+        let _ = (author, mutation);
+        self.close(self.merge(before.state(), delta))
     }
 
     /// Under which index of the checker a replica mutates: the next incarnations of replica r are
@@ -67,7 +68,7 @@ pub struct Broken {
 }
 
 /// The replicas whose views of one state are compared.
-const WATCHERS: std::ops::Range<usize> = 0..2;
+const WATCHERS: [usize; 2] = [0, 1];
 
 impl Broken {
     /// The core `core` with a flaw.
@@ -96,7 +97,10 @@ impl Broken {
     fn check_delta(before: &State, delta: &Delta) -> Result<(), Breach> {
         let foreign = |dot: &Dot| !delta.holds(*dot) && !before.holds(*dot);
         match delta.context().runs().flat_map(dsr_core::Run::dots).find(foreign) {
-            Some(dot) => Err(Breach::new("MUT-0.1", format_args!("the delta speaks of {dot}, which its author did not hold"))),
+            Some(dot) => Err(Breach::new(
+                "MUT-0.1",
+                format_args!("the delta speaks of {dot}, which its author did not hold"),
+            )),
             None => Ok(()),
         }
     }
@@ -121,8 +125,9 @@ impl Semantics for Broken {
 
     fn mutate(&self, state: &State, replica: usize, mutation: &Act) -> Option<Step<Self>> {
         let author = Author::new(replica_id(self.flaw.identity(replica)));
-        let delta = self.flaw.delta(&view(state, &self.core.dictionary), author, &mutation.0)?;
-        let after = self.flaw.after(state, &delta);
+        let before = view(state, &self.core.dictionary);
+        let delta = self.flaw.delta(&before, author, &mutation.0)?;
+        let after = self.flaw.after(&before, author, &mutation.0, &delta);
         Some(Step { delta, after })
     }
 
@@ -143,24 +148,26 @@ impl Semantics for Broken {
     fn judge(&self, state: &State) -> Result<Judged, Breach> {
         let judged = self.core.judge(state)?;
         let core_view = view(state, &self.core.dictionary);
-        let mut first: Option<Shown> = None;
-        for here in WATCHERS {
-            let shown = self.flaw.show(&core_view, here);
-            judge_shown(&shown, state, &self.core.dictionary)?;
-            match &first {
-                Some(first) if *first != shown => {
-                    return Err(Breach::new("VIEW-1", "two replicas show one state differently"));
-                }
-                Some(_) => {}
-                None => first = Some(shown),
-            }
+        let shown = WATCHERS.map(|here| self.flaw.show(&core_view, here));
+        if shown[0] != shown[1] {
+            return Err(Breach::new("VIEW-1", "two replicas show one state differently"));
         }
+        judge_shown(&shown[0], state, &self.core.dictionary)?;
         Ok(judged)
     }
 
-    fn judge_step(&self, before: &State, replica: usize, mutation: &Act, step: &Step<Self>) -> Result<(), Breach> {
+    fn judge_step(
+        &self,
+        before: &State,
+        replica: usize,
+        mutation: &Act,
+        step: &Step<Self>,
+    ) -> Result<(), Breach> {
         if self.joined(before, &step.delta) != step.after {
-            return Err(Breach::new("MUT-0", "the author's state is not its old state joined with the delta"));
+            return Err(Breach::new(
+                "MUT-0",
+                "the author's state is not its old state joined with the delta",
+            ));
         }
         if self.joined(before, &step.after) != step.after {
             return Err(Breach::new("JOIN-4", "the author's new state does not include its old one"));
@@ -170,9 +177,9 @@ impl Semantics for Broken {
             // The join itself is broken: the core's judgement of the step would compare with the right one.
             return Ok(());
         }
-        self.check_unrepaired(before, &step.after)?;
-        let step = Step { delta: step.delta.clone(), after: step.after.clone() };
-        self.core.judge_step(before, replica, mutation, &step)
+        let same = Step { delta: step.delta.clone(), after: step.after.clone() };
+        self.core.judge_step(before, replica, mutation, &same)?;
+        self.check_unrepaired(before, &step.after)
     }
 
     fn judge_delivery(&self, before: &State, after: &State) -> Result<(), Breach> {

@@ -39,7 +39,9 @@ impl Flaw for GapsTakenAsSeen {
         let filled = |state: &State| {
             let mut parts = Parts::of(state);
             let runs: Vec<_> = parts.context.runs().collect();
-            runs.into_iter().for_each(|run| parts.context.insert_prefix(run.replica, run.last));
+            for run in runs {
+                parts.context.insert_prefix(run.replica, run.last);
+            }
             parts.build()
         };
         // What arrives is taken as it is; only the own context has lost its gaps.
@@ -92,9 +94,12 @@ pub(super) struct LastDelivered;
 impl Flaw for LastDelivered {
     fn merge(&self, left: &State, right: &State) -> State {
         let mut merged = Parts::of(&Sound.merge(left, right));
-        let fresh: Vec<(Dot, &Record)> = right.records().filter(|(dot, _)| !left.context().contains(*dot)).collect();
+        let fresh: Vec<(Dot, &Record)> =
+            right.records().filter(|(dot, _)| !left.context().contains(*dot)).collect();
         merged.records.retain(|dot, record| {
-            let replaced = |(new, by): &(Dot, &Record)| new != dot && matches!(record, Record::Write(_)) && compete(record, by);
+            let replaced = |(new, by): &(Dot, &Record)| {
+                new != dot && matches!(record, Record::Write(_)) && compete(record, by)
+            };
             !left.holds(*dot) || !fresh.iter().any(replaced)
         });
         merged.build()
@@ -153,7 +158,9 @@ impl Flaw for RevivingUpdate {
 
     fn delta(&self, before: &View<'_>, author: Author, mutation: &Mutation) -> Option<Delta> {
         let delta = Sound.delta(before, author, mutation)?;
-        let Mutation::UpdateAttributes { target: ElementId::Vertex(vertex), .. } = mutation else { return Some(delta) };
+        let Mutation::UpdateAttributes { target: ElementId::Vertex(vertex), .. } = mutation else {
+            return Some(delta);
+        };
         let Some(record) = before.state().get(vertex.0) else { return Some(delta) };
         let mut parts = Parts::of(&delta);
         parts.records.insert(vertex.0, record.clone());
@@ -170,7 +177,9 @@ impl Flaw for DroppedPending {
     fn merge(&self, left: &State, right: &State) -> State {
         let mut merged = Parts::of(&Sound.merge(left, right));
         let context: CausalContext = merged.context.clone();
-        merged.records.retain(|_, record| record.anchors().all(|anchor| anchor.sequence == 0 || context.contains(anchor)));
+        merged.records.retain(|_, record| {
+            record.anchors().all(|anchor| anchor.sequence == 0 || context.contains(anchor))
+        });
         merged.build()
     }
 }

@@ -47,58 +47,126 @@ pub fn all() -> Vec<Alarm> {
 
 fn of_joins() -> Vec<Alarm> {
     use joins::{
-        Counting, DroppedLosers, DroppedPending, FirstArrival, ForgottenContext, GapsTakenAsSeen, LastDelivered,
-        LocalCycleOrder, NoClosure, Resurrection, RevivingUpdate, ShallowClosure,
+        Counting, DroppedLosers, DroppedPending, FirstArrival, ForgottenContext, GapsTakenAsSeen,
+        LastDelivered, LocalCycleOrder, NoClosure, Resurrection, RevivingUpdate, ShallowClosure,
     };
     vec![
-        alarm("forgotten-context-dot", "JOIN-1", "a removal is forgotten where its record never was", ForgottenContext),
+        alarm(
+            "forgotten-context-dot",
+            "JOIN-1",
+            "a removal is forgotten where its record never was",
+            ForgottenContext,
+        ),
         alarm("resurrection", "STATE-3", "a record is taken in though its dot is dead", Resurrection),
-        alarm("gaps-taken-as-seen", "CTX-1", "contexts are bare version vectors: a gap counts as seen", GapsTakenAsSeen),
+        alarm(
+            "gaps-taken-as-seen",
+            "CTX-1",
+            "contexts are bare version vectors: a gap counts as seen",
+            GapsTakenAsSeen,
+        ),
         alarm("closure-skipped", "CLOSE-1", "nothing dies with its anchor", NoClosure),
         alarm("closure-one-level", "CLOSE-3", "closure makes one pass and stops", ShallowClosure),
         alarm("join-counts", "JOIN-3", "a record that is delivered again gains a stamp", Counting),
         alarm("last-delivered-wins", "JOIN-5", "the write delivered last replaces the others", LastDelivered),
-        alarm("tie-by-arrival", "STAMP-2", "of two claims with one stamp the first to arrive stays", FirstArrival),
-        alarm("cycle-by-local-order", "VIEW-3", "a kinematic edge is refused where it would close a cycle", LocalCycleOrder),
+        alarm(
+            "tie-by-arrival",
+            "STAMP-2",
+            "of two claims with one stamp the first to arrive stays",
+            FirstArrival,
+        ),
+        alarm(
+            "cycle-by-local-order",
+            "VIEW-3",
+            "a kinematic edge is refused where it would close a cycle",
+            LocalCycleOrder,
+        ),
         alarm("update-revives", "STATE-3", "an update brings back the vertex that it is on", RevivingUpdate),
         alarm("pending-dropped", "CLOSE-4", "what arrives before its anchors is thrown away", DroppedPending),
-        alarm("losers-dropped", "VIEW-1", "the loser of a conflict is thrown away where it is seen", DroppedLosers),
+        alarm(
+            "losers-dropped",
+            "VIEW-1",
+            "the loser of a conflict is thrown away where it is seen",
+            DroppedLosers,
+        ),
     ]
 }
 
 fn of_authors() -> Vec<Alarm> {
     use authors::{
-        FullContext, KillsUnseen, LinkApart, LosersKept, MoveCopies, RefusalConsumes, ReusedDot, StampNotAdvanced,
-        StrandingRemoval, UpdateKeepsOld,
+        FullContext, KillsUnseen, LinkApart, LosersKept, MoveCopies, RefusalConsumes, ReusedDot,
+        StampNotAdvanced, StrandingRemoval, UpdateKeepsOld,
     };
     vec![
-        alarm("full-causal-context", "MUT-0.1", "a delta covers everything that its author ever did", FullContext),
-        alarm("kill-unobserved", "MUT-0.1", "a removal kills the next event as well, unseen", KillsUnseen),
-        alarm("stamp-not-advanced", "STAMP-1", "a stamp is one above the author's own, not above all held", StampNotAdvanced),
+        alarm(
+            "full-causal-context",
+            "MUT-0.1",
+            "a delta covers everything that its author ever did",
+            FullContext,
+        ),
+        alarm(
+            "kill-unobserved",
+            "MUT-0.1",
+            "a removal kills the next event of the same author, unseen",
+            KillsUnseen,
+        ),
+        alarm(
+            "stamp-not-advanced",
+            "STAMP-1",
+            "a stamp is one above the author's own, not above all held",
+            StampNotAdvanced,
+        ),
         alarm("reused-dot", "ID-3", "after a restart without its counter a replica keeps its id", ReusedDot),
         alarm("losers-kept", "MUT-4", "removing an edge leaves the claims that it hides", LosersKept),
-        alarm("stranding-removal", "MUT-4.2", "an edge is removed though somebody loses the way to the root", StrandingRemoval),
+        alarm(
+            "stranding-removal",
+            "MUT-4.2",
+            "an edge is removed though somebody loses the way to the root",
+            StrandingRemoval,
+        ),
         alarm("refusal-consumes", "MUT-0", "a refused mutation uses up a dot", RefusalConsumes),
         alarm("update-keeps-old", "MUT-3", "an update leaves the writes that it replaces", UpdateKeepsOld),
         alarm("move-copies", "MUT-5", "a moved edge stays where it was as well", MoveCopies),
-        alarm("link-apart", "MUT-1.1", "a new vertex and its link are two messages, one of them lost", LinkApart),
+        alarm(
+            "link-apart",
+            "MUT-1.1",
+            "a new vertex and its link are two messages, one of them lost",
+            LinkApart,
+        ),
     ]
 }
 
 fn of_resynchronisation() -> Vec<Alarm> {
     use resync::{ContextDigest, SendsTheView};
     vec![
-        alarm("digest-by-context", "SYNC-2", "who has seen the same dots is taken to hold the same", ContextDigest),
+        alarm(
+            "digest-by-context",
+            "SYNC-2",
+            "who has seen the same dots is taken to hold the same",
+            ContextDigest,
+        ),
         alarm("resync-sends-view", "SYNC-3", "claims that the view hides are not sent", SendsTheView),
     ]
 }
 
 fn of_views() -> Vec<Alarm> {
-    use views::{FirstWrite, FunctionalNotRepaired, NewestName, NoCycleCheck, NotReattached, OwnClaimWins, PendingShown};
+    use views::{
+        FirstWrite, FunctionalNotRepaired, NewestName, NoCycleCheck, NotReattached, OwnClaimWins,
+        PendingShown,
+    };
     vec![
-        alarm("no-cycle-check", "VIEW-3", "kinematic claims are shown without looking for cycles", NoCycleCheck),
+        alarm(
+            "no-cycle-check",
+            "VIEW-3",
+            "kinematic claims are shown without looking for cycles",
+            NoCycleCheck,
+        ),
         alarm("newest-name", "VIEW-7", "a name that two vertices have finds the newer", NewestName),
-        alarm("functional-not-repaired", "VIEW-6", "all claims under a functional label are shown", FunctionalNotRepaired),
+        alarm(
+            "functional-not-repaired",
+            "VIEW-6",
+            "all claims under a functional label are shown",
+            FunctionalNotRepaired,
+        ),
         alarm("own-claim-wins", "VIEW-1", "each replica shows its own claim", OwnClaimWins),
         alarm("pending-shown", "CLOSE-4", "edges are shown before their ends have arrived", PendingShown),
         alarm("not-reattached", "VIEW-5", "what lost its way to the root is left in the air", NotReattached),

@@ -80,16 +80,24 @@ impl fmt::Display for Report {
             }
         }
         let alarms = self.sound.iter().filter(|layer| layer.finding.is_some()).count();
-        writeln!(f, "{:<7} {:<24} nothing is broken", if alarms == 0 { "silent" } else { "FALSE" }, "sound core")?;
+        writeln!(
+            f,
+            "{:<7} {:<24} nothing is broken",
+            if alarms == 0 { "silent" } else { "FALSE" },
+            "sound core"
+        )?;
         self.sound.iter().try_for_each(|layer| write_layer(f, layer))
     }
 }
 
 fn write_layer(f: &mut fmt::Formatter<'_>, layer: &LayerReport) -> fmt::Result {
-    match &layer.finding {
-        Some(found) => {
-            writeln!(f, "        {} {:<10} {} steps, {}", layer.layer, found.clause, found.steps, found.bound)
-        }
-        None => writeln!(f, "        {} not up to {}", layer.layer, layer.searched),
+    if let Some(found) = &layer.finding {
+        return writeln!(
+            f,
+            "        {} {:<10} {} steps, {}",
+            layer.layer, found.clause, found.steps, found.bound
+        );
     }
+    let end = if layer.exhaustive { "" } else { ", not all to their ends" };
+    writeln!(f, "        {} not up to {}{end}", layer.layer, layer.searched)
 }

@@ -11,8 +11,10 @@ pub(super) struct ContextDigest;
 impl Flaw for ContextDigest {
     fn repair(&self, ours: &State, theirs: &State) -> Delta {
         let unseen = |dot: &Dot| !theirs.context().contains(*dot);
-        let records = ours.records().filter(|(dot, _)| unseen(dot)).map(|(dot, record)| (dot, record.clone()));
-        let context: CausalContext = ours.context().runs().flat_map(dsr_core::Run::dots).filter(unseen).collect();
+        let records =
+            ours.records().filter(|(dot, _)| unseen(dot)).map(|(dot, record)| (dot, record.clone()));
+        let context: CausalContext =
+            ours.context().runs().flat_map(dsr_core::Run::dots).filter(unseen).collect();
         State::assemble(records, context)
     }
 }

@@ -1,14 +1,14 @@
 //! One alarm through the layers, at growing bounds.
 
-use super::broken::{Broken, Sound};
-use super::subject::subject;
 use super::Alarm;
+use super::broken::{Broken, Sound};
+use super::subject::{A, B, subject};
 use crate::algebra;
 use crate::histories::{Bound, HistoryRun};
 use crate::progress::{Limits, Progress};
 use crate::schedules::{ScheduleBound, ScheduleRun};
 use crate::verdict::{RunReport, Verdict};
-use dsr_core::MutationKind;
+use dsr_core::{MutationKind, VertexId};
 use serde::Serialize;
 use std::sync::Arc;
 use std::time::Instant;
@@ -35,35 +35,40 @@ pub struct LayerReport {
     pub layer: &'static str,
     /// What it found, at its smallest bound.
     pub finding: Option<Finding>,
-    /// The largest bound that was searched, to its end if nothing was found.
+    /// The last bound that was searched.
     pub searched: String,
+    /// Whether every bound up to that was searched to its end; a flaw that was found ends the search.
+    pub exhaustive: bool,
     /// How long it took.
     pub seconds: f64,
 }
 
-/// The most states of one search.
-const STATES_MAX: u64 = 400_000;
+/// The most states of a search with all six kinds: never reached.
+const STATES_MAX: u64 = 2_000_000;
+/// The most states of a search with a pair of kinds.
+const PAIR_STATES_MAX: u64 = 100_000;
 
 /// Tries every layer, the cheapest first; with `all_layers` also those after the first that finds it.
 pub fn run_alarm(alarm: &Alarm, all_layers: bool) -> Vec<LayerReport> {
-    layers(&|kinds| Broken::new(alarm.name, subject(kinds), alarm.flaw.clone()), all_layers)
+    layers(&|kinds, focus| Broken::new(alarm.name, subject(kinds, focus), alarm.flaw.clone()), all_layers)
 }
 
 /// The sound core through the same layers and bounds: nothing may be found.
 pub fn run_sound() -> Vec<LayerReport> {
-    layers(&|kinds| Broken::new("sound", subject(kinds), Arc::new(Sound)), true)
+    layers(&|kinds, focus| Broken::new("sound", subject(kinds, focus), Arc::new(Sound)), true)
 }
 
-/// The semantics under test with some kinds of mutation.
-type Make<'m> = &'m dyn Fn(&[MutationKind]) -> Broken;
+/// The semantics under test with some kinds of mutation on some vertices.
+type Make<'m> = &'m dyn Fn(&[MutationKind], &[VertexId]) -> Broken;
 
 fn layers(make: Make<'_>, all_layers: bool) -> Vec<LayerReport> {
     let mut reports = Vec::new();
     for (layer, search) in [("L0", algebra as Search), ("L1", histories), ("L2", schedules)] {
         let started = Instant::now();
-        let (finding, searched) = search(make);
+        let Outcome { finding, searched, exhaustive } = search(make);
         let found = finding.is_some();
-        reports.push(LayerReport { layer, finding, searched, seconds: started.elapsed().as_secs_f64() });
+        let seconds = started.elapsed().as_secs_f64();
+        reports.push(LayerReport { layer, finding, searched, exhaustive, seconds });
         if found && !all_layers {
             break;
         }
@@ -71,10 +76,17 @@ fn layers(make: Make<'_>, all_layers: bool) -> Vec<LayerReport> {
     reports
 }
 
-type Search = fn(Make<'_>) -> (Option<Finding>, String);
+type Search = fn(Make<'_>) -> Outcome;
 
-fn algebra(make: Make<'_>) -> (Option<Finding>, String) {
-    let broken = make(&MutationKind::ALL);
+/// What one layer came to.
+struct Outcome {
+    finding: Option<Finding>,
+    searched: String,
+    exhaustive: bool,
+}
+
+fn algebra(make: Make<'_>) -> Outcome {
+    let broken = make(&MutationKind::ALL, &[A, B]);
     let mut searched = String::new();
     for records in 1..=4 {
         searched = format!("{records} records");
@@ -84,62 +96,81 @@ fn algebra(make: Make<'_>) -> (Option<Finding>, String) {
             let (clause, bound) = (example.clause.into(), searched.clone());
             let detail = format!("{} ({}: {})", law.law, example.family, example.detail);
             let finding = Finding { layer: "L0", bound, clause, detail, steps: example.states.len() };
-            return (Some(finding), searched);
+            return Outcome { finding: Some(finding), searched, exhaustive: true };
         }
     }
-    (None, searched)
+    Outcome { finding: None, searched, exhaustive: true }
 }
 
-/// The bounds of L1 and L2 with their kinds of mutation: all six while that is cheap, then pairs of kinds.
-fn ladder() -> Vec<(usize, usize, Vec<MutationKind>)> {
+/// One bound of L1 and L2.
+struct Rung {
+    replicas: usize,
+    mutations: usize,
+    kinds: Vec<MutationKind>,
+    focus: &'static [VertexId],
+    states_max: u64,
+}
+
+/// All six kinds on two vertices while that is cheap; then, on one vertex, pairs of kinds that add none.
+fn ladder() -> Vec<Rung> {
     let all = MutationKind::ALL;
-    let mut ladder = vec![(1, 1, all.to_vec()), (1, 2, all.to_vec()), (2, 1, all.to_vec())];
-    for left in 0..all.len() {
-        ladder.extend((left + 1..all.len()).map(|right| (2, 2, vec![all[left], all[right]])));
+    let rung = |replicas, mutations| Rung {
+        replicas,
+        mutations,
+        kinds: all.to_vec(),
+        focus: &[A, B],
+        states_max: STATES_MAX,
+    };
+    let mut ladder = vec![rung(1, 1), rung(1, 2), rung(2, 1)];
+    let fixed = &all[1..];
+    for left in 0..fixed.len() {
+        ladder.extend((left + 1..fixed.len()).map(|right| {
+            let kinds = vec![fixed[left], fixed[right]];
+            Rung { kinds, focus: &[B], states_max: PAIR_STATES_MAX, ..rung(2, 2) }
+        }));
     }
     ladder
 }
 
-fn histories(make: Make<'_>) -> (Option<Finding>, String) {
-    let mut searched = String::new();
-    for (replicas, mutations, kinds) in ladder() {
-        searched = bound_name(replicas, mutations, &kinds);
+/// Climbs the ladder until something is found.
+fn climb(layer: &'static str, search: impl Fn(&Rung, String, &Arc<Progress>) -> RunReport) -> Outcome {
+    let mut outcome = Outcome { finding: None, searched: String::new(), exhaustive: true };
+    for rung in ladder() {
+        outcome.searched = bound_name(rung.replicas, rung.mutations, &rung.kinds);
+        let limits = Limits { states_max: rung.states_max, ..Limits::default() };
+        let report = search(&rung, outcome.searched.clone(), &Arc::new(Progress::new(limits)));
+        outcome.exhaustive &= report.verdict != Verdict::Bounded;
+        if report.verdict == Verdict::Violated {
+            outcome.finding = Some(finding(layer, &report));
+            break;
+        }
+    }
+    outcome
+}
+
+fn histories(make: Make<'_>) -> Outcome {
+    climb("L1", |rung, name, progress| {
         let run = HistoryRun {
-            name: searched.clone(),
-            semantics: Arc::new(make(&kinds)),
-            focus: 2,
-            bound: Bound { replicas, mutations },
+            name,
+            semantics: Arc::new(make(&rung.kinds, rung.focus)),
+            focus: rung.focus.len(),
+            bound: Bound { replicas: rung.replicas, mutations: rung.mutations },
             symmetry: false,
             second_engine: false,
         };
-        let report = run.run(&progress());
-        if report.verdict == Verdict::Violated {
-            return (Some(finding("L1", &report)), searched);
-        }
-    }
-    (None, searched)
+        run.run(progress)
+    })
 }
 
-fn schedules(make: Make<'_>) -> (Option<Finding>, String) {
-    let mut searched = String::new();
-    for (replicas, mutations, kinds) in schedule_ladder() {
-        searched = bound_name(replicas, mutations, &kinds);
-        let bound = ScheduleBound { replicas, readers: 0, mutations, restarts: 1, resynchronisations: 1 };
-        let run = ScheduleRun { name: searched.clone(), semantics: Arc::new(make(&kinds)), focus: 2, bound };
-        let report = run.run(&progress());
-        if report.verdict == Verdict::Violated {
-            return (Some(finding("L2", &report)), searched);
-        }
-    }
-    (None, searched)
-}
-
-fn schedule_ladder() -> Vec<(usize, usize, Vec<MutationKind>)> {
-    ladder()
-}
-
-fn progress() -> Arc<Progress> {
-    Arc::new(Progress::new(Limits { states_max: STATES_MAX, ..Limits::default() }))
+/// With a restart and a resynchronisation while that is cheap, then with a restart.
+fn schedules(make: Make<'_>) -> Outcome {
+    climb("L2", |rung, name, progress| {
+        let (replicas, mutations) = (rung.replicas, rung.mutations);
+        let resynchronisations = u8::from(replicas * mutations < 4);
+        let bound = ScheduleBound { replicas, readers: 0, mutations, restarts: 1, resynchronisations };
+        let semantics = Arc::new(make(&rung.kinds, rung.focus));
+        ScheduleRun { name, semantics, focus: rung.focus.len(), bound }.run(progress)
+    })
 }
 
 fn bound_name(replicas: usize, mutations: usize, kinds: &[MutationKind]) -> String {
@@ -151,10 +182,9 @@ fn bound_name(replicas: usize, mutations: usize, kinds: &[MutationKind]) -> Stri
 fn finding(layer: &'static str, report: &RunReport) -> Finding {
     let trace = report.traces.first();
     let clause = trace.map_or_else(|| "?".into(), |trace| trace.clause.clone());
-    let detail = trace.and_then(|trace| trace.json["breach"]["detail"].as_str()).map_or_else(
-        || report.notes.join("; "),
-        Into::into,
-    );
+    let detail = trace
+        .and_then(|trace| trace.json["breach"]["detail"].as_str())
+        .map_or_else(|| report.notes.join("; "), Into::into);
     let steps = trace.and_then(|trace| trace.json["steps"].as_array()).map_or(0, Vec::len);
     Finding { layer, bound: report.name.clone(), clause, detail, steps }
 }

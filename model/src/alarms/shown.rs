@@ -37,11 +37,14 @@ impl Shown {
             }
         }
         let vertices: BTreeSet<VertexId> = view.vertices().iter().copied().collect();
-        let named = vertices.iter().filter_map(|&vertex| view.vertex(vertex));
-        let names = named.filter_map(|vertex| Some((vertex.name.clone(), view.vertex_by_name(&vertex.name)?))).collect();
+        let records = vertices.iter().filter_map(|&vertex| view.vertex(vertex));
+        let names = records
+            .filter_map(|vertex| Some((vertex.name.clone(), view.vertex_by_name(&vertex.name)?)))
+            .collect();
         let registers = view.writes().iter().map(|(_, write)| (write.target, write.name.clone()));
-        let attributes =
-            registers.filter_map(|(target, name)| Some(((target, name.clone()), view.attribute(target, &name)?.0))).collect();
+        let attributes = registers
+            .filter_map(|(target, name)| Some(((target, name.clone()), view.attribute(target, &name)?.0)))
+            .collect();
         let edges = view.edges().iter().map(|shown| (shown.id, shown.edge.clone())).collect();
         Self { vertices, edges, hidden, hung, names, attributes }
     }

@@ -50,7 +50,10 @@ fn check_tree(shown: &Shown) -> Result<(), Breach> {
             }
         }
         if !at.is_root() && !shown.hung.contains(&at) {
-            return Err(Breach::new("INV-3", format_args!("the tree of {} does not end at the root", edge.to)));
+            return Err(Breach::new(
+                "INV-3",
+                format_args!("the tree of {} does not end at the root", edge.to),
+            ));
         }
     }
     Ok(())
@@ -113,7 +116,10 @@ fn check_names(shown: &Shown, state: &State) -> Result<(), Breach> {
     for (name, (_, vertex)) in least {
         let found = shown.names.get(&name);
         if found != Some(&vertex) {
-            return Err(Breach::new("VIEW-7", format_args!("{name:?} does not find {vertex}, the oldest of that name")));
+            return Err(Breach::new(
+                "VIEW-7",
+                format_args!("{name:?} does not find {vertex}, the oldest of that name"),
+            ));
         }
     }
     Ok(())
@@ -125,7 +131,10 @@ fn check_attributes(shown: &Shown, state: &State) -> Result<(), Breach> {
         for (dot, record) in state.records() {
             let Record::Write(write) = record else { continue };
             if write.target == *target && write.name == *name && state.rank(dot) > state.rank(*winner) {
-                return Err(Breach::new("VIEW-8", format_args!("{winner} is shown, but {dot} is the greater write")));
+                return Err(Breach::new(
+                    "VIEW-8",
+                    format_args!("{winner} is shown, but {dot} is the greater write"),
+                ));
             }
         }
     }

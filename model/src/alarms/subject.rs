@@ -2,7 +2,9 @@
 
 use crate::checked::Checked;
 use crate::checked::alphabet::{ATTRIBUTE, Alphabet, FUNCTIONAL};
-use dsr_core::{Dictionary, Dot, Edge, MutationKind, RT, Record, ReplicaId, State, Value, Vertex, VertexId, Write};
+use dsr_core::{
+    Dictionary, Dot, Edge, MutationKind, RT, Record, ReplicaId, State, Value, Vertex, VertexId, Write,
+};
 
 /// The dot of the scene's event `sequence`.
 const fn dot(sequence: u64) -> Dot {
@@ -14,8 +16,8 @@ pub const A: VertexId = VertexId(dot(1));
 /// Another one, which is `in` the first, and has the attribute `level`.
 pub const B: VertexId = VertexId(dot(3));
 
-/// Two vertices below the root, the second `in` the first, with some kinds of mutation.
-pub fn subject(kinds: &[MutationKind]) -> Checked {
+/// Two vertices below the root, the second `in` the first, with some kinds of mutation on some of them.
+pub fn subject(kinds: &[MutationKind], focus: &[VertexId]) -> Checked {
     let vertex = |name: &str, stamp| {
         Record::Vertex(Vertex { vertex_type: "object".into(), name: name.into(), external_id: None, stamp })
     };
@@ -32,7 +34,7 @@ pub fn subject(kinds: &[MutationKind]) -> Checked {
     Checked {
         dictionary: Dictionary::open().with_functional(FUNCTIONAL),
         initial: State::assemble(records, context),
-        alphabet: Alphabet::of(kinds, vec![A, B]),
+        alphabet: Alphabet::of(kinds, focus.to_vec()),
     }
 }
 

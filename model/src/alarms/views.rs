@@ -29,7 +29,10 @@ impl Flaw for NewestName {
     fn show(&self, view: &View<'_>, _here: usize) -> Shown {
         let mut shown = Shown::of(view);
         for (name, found) in &mut shown.names {
-            let holders = view.vertices().iter().filter(|&&id| view.vertex(id).is_some_and(|vertex| vertex.name == *name));
+            let holders = view
+                .vertices()
+                .iter()
+                .filter(|&&id| view.vertex(id).is_some_and(|vertex| vertex.name == *name));
             if let Some(newest) = holders.max_by_key(|id| view.state().rank(id.0)) {
                 *found = *newest;
             }

@@ -1,8 +1,8 @@
 //! The schedules as a stateright model.
 
+use super::ScheduleBound;
 use super::space::{ScheduleFault, Schedules};
 use super::state::{Event, Schedule};
-use super::ScheduleBound;
 use crate::progress::Progress;
 use crate::semantics::Semantics;
 use stateright::{Model, Property};
@@ -28,7 +28,10 @@ impl<S: Semantics> ScheduleModel<S> {
     /// The model of a bound; it counts into `progress` and stops when that says so.
     pub fn new(semantics: Arc<S>, bound: ScheduleBound, progress: Arc<Progress>) -> Self {
         let schedules = Schedules::new(semantics, bound);
-        Self { inner: Mutex::new(Inner { schedules, fault: None, cut: false, generated: 0, expanded: 0 }), progress }
+        Self {
+            inner: Mutex::new(Inner { schedules, fault: None, cut: false, generated: 0, expanded: 0 }),
+            progress,
+        }
     }
 
     fn inner(&self) -> MutexGuard<'_, Inner<S>> {
@@ -85,18 +88,21 @@ impl<S: Semantics + 'static> Model for ScheduleModel<S> {
     }
 
     fn properties(&self) -> Vec<Property<Self>> {
-        vec![Property::always("every clause holds, and from everywhere all can become equal", |model, schedule| {
-            let inner = &mut *model.inner();
-            if inner.fault.is_some() {
-                return false;
-            }
-            match inner.schedules.judge(schedule) {
-                Ok(()) => true,
-                Err(breach) => {
-                    inner.fault = Some(ScheduleFault { breach, event: None });
-                    false
+        vec![Property::always(
+            "every clause holds, and from everywhere all can become equal",
+            |model, schedule| {
+                let inner = &mut *model.inner();
+                if inner.fault.is_some() {
+                    return false;
                 }
-            }
-        })]
+                match inner.schedules.judge(schedule) {
+                    Ok(()) => true,
+                    Err(breach) => {
+                        inner.fault = Some(ScheduleFault { breach, event: None });
+                        false
+                    }
+                }
+            },
+        )]
     }
 }

@@ -1,9 +1,9 @@
 //! Histories against schedules: the reduction that L1 relies on, checked on what both layers reached.
 //! `[spec: CHECK-7]`
 
+use super::ScheduleBound;
 use super::engine::explore;
 use super::space::{ScheduleFault, Schedules};
-use super::ScheduleBound;
 use crate::histories::{Bound, Histories, History, MUTATIONS_MAX, REPLICAS_MAX};
 use crate::semantics::Semantics;
 use crate::tables::{DeltaId, NONE, StateId};
@@ -64,7 +64,10 @@ type Pool = [[DeltaId; MUTATIONS_MAX]; REPLICAS_MAX];
 /// Explores schedules without restarts and resynchronisation, and histories of the same bound. The pools
 /// of deltas must be the same; each replica state of a schedule must be that of a delivered subset of its
 /// pool; and where there is a reader, its states must be all of these. `[spec: CHECK-7]`
-pub fn check_reduction<S: Semantics>(semantics: &Arc<S>, bound: ScheduleBound) -> Result<Reduction, ReductionFault> {
+pub fn check_reduction<S: Semantics>(
+    semantics: &Arc<S>,
+    bound: ScheduleBound,
+) -> Result<Reduction, ReductionFault> {
     let bound = ScheduleBound { restarts: 0, resynchronisations: 0, ..bound };
     let mut schedules = Schedules::new(semantics.clone(), bound);
     let reached = explore(&mut schedules).map_err(ReductionFault::Schedule)?.schedules;
@@ -72,8 +75,10 @@ pub fn check_reduction<S: Semantics>(semantics: &Arc<S>, bound: ScheduleBound) -
 
     let schedule_pools: FxHashSet<Pool> = reached.iter().map(|schedule| schedule.deltas).collect();
     let history_pools: FxHashSet<Pool> = histories.iter().copied().collect();
-    let (only_schedules, only_histories) =
-        (schedule_pools.difference(&history_pools).count(), history_pools.difference(&schedule_pools).count());
+    let (only_schedules, only_histories) = (
+        schedule_pools.difference(&history_pools).count(),
+        history_pools.difference(&schedule_pools).count(),
+    );
     if only_schedules + only_histories > 0 {
         return Err(ReductionFault::Pools { only_schedules, only_histories });
     }
@@ -140,7 +145,9 @@ fn delivered_subsets<S: Semantics>(schedules: &mut Schedules<S>, pool: &Pool) ->
     for &delta in pool.iter().flatten().filter(|&&delta| delta != NONE) {
         let mut before: Vec<StateId> = states.iter().copied().collect();
         before.sort_unstable();
-        states.extend(before.into_iter().map(|state| schedules.tables.join(&schedules.semantics, state, delta)));
+        states.extend(
+            before.into_iter().map(|state| schedules.tables.join(&schedules.semantics, state, delta)),
+        );
     }
     states
 }

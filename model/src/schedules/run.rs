@@ -52,9 +52,13 @@ impl<S: Semantics + 'static> ScheduleRun<S> {
         let mut notes: Vec<String> =
             breach.iter().map(|breach| format!("[{}] {}", breach.clause, breach.detail)).collect();
         if cut {
-            notes.push(format!("stopped after {expanded} schedules and {:.0} s, before its end", progress.seconds()));
+            notes.push(format!(
+                "stopped after {expanded} schedules and {:.0} s, before its end",
+                progress.seconds()
+            ));
         }
-        let traces: Vec<RunTrace> = breach.iter().filter_map(|_| self.counterexample()).map(RunTrace::from).collect();
+        let traces: Vec<RunTrace> =
+            breach.iter().filter_map(|_| self.counterexample()).map(RunTrace::from).collect();
         RunReport {
             replicas: self.bound.everybody(),
             mutations: self.bound.mutations,
@@ -80,7 +84,12 @@ impl<S: Semantics + 'static> ScheduleRun<S> {
         named.map(|((bit, name), _)| ((*name).into(), happened >> bit & 1 == 1)).collect()
     }
 
-    fn properties(&self, evidence: Evidence, breach: Option<&Breach>, seen: &[(String, bool)]) -> Vec<PropertyReport> {
+    fn properties(
+        &self,
+        evidence: Evidence,
+        breach: Option<&Breach>,
+        seen: &[(String, bool)],
+    ) -> Vec<PropertyReport> {
         let complete = evidence.complete() && breach.is_none();
         let property = |clause: String, kind, verdict, claim: &str, what: &str| PropertyReport {
             clause,

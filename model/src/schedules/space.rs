@@ -127,7 +127,13 @@ impl<S: Semantics> Schedules<S> {
         Ok(())
     }
 
-    fn deliver(&mut self, at: &Schedule, message: Message, replica: usize, out: &mut Vec<(Event, Schedule)>) -> Found {
+    fn deliver(
+        &mut self,
+        at: &Schedule,
+        message: Message,
+        replica: usize,
+        out: &mut Vec<(Event, Schedule)>,
+    ) -> Found {
         let delta = at.content(message);
         let mut lost = *at;
         lost.remove(message, replica);

@@ -52,7 +52,14 @@ fn step<S: Semantics>(
     };
     let (replica, act, after) = match *event {
         Event::Mutate { replica, index, delta } => {
-            let act = mutate_act(schedules, before, replica, index, delta, message_name(replica, before.made(replica)));
+            let act = mutate_act(
+                schedules,
+                before,
+                replica,
+                index,
+                delta,
+                message_name(replica, before.made(replica)),
+            );
             (replica, act, received(schedules, before, replica, delta))
         }
         Event::Deliver { replica, message, .. } => {
@@ -97,7 +104,12 @@ fn mutate_act<S: Semantics>(
     }
 }
 
-fn received<S: Semantics>(schedules: &mut Schedules<S>, before: &Schedule, replica: usize, delta: DeltaId) -> StateId {
+fn received<S: Semantics>(
+    schedules: &mut Schedules<S>,
+    before: &Schedule,
+    replica: usize,
+    delta: DeltaId,
+) -> StateId {
     schedules.tables.join(&schedules.semantics, before.states[replica], delta)
 }
 
