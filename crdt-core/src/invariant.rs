@@ -183,11 +183,9 @@ pub fn check_tree(view: &View<'_>) -> Result<(), Violation> {
             return Err(Violation::Misplaced { vertex });
         }
     }
-    for &(start, ..) in &parents {
-        let top = top_of(start, parents.len(), |at| parent_in(&parents, at).map(|(parent, _)| parent));
-        if !top.is_some_and(|top| top.is_root() || is_detached(top)) {
-            return Err(Violation::NotRooted { vertex: start });
-        }
+    let pairs: Vec<(VertexId, VertexId)> = parents.iter().map(|&(child, parent, _)| (child, parent)).collect();
+    if let Some(vertex) = first_unrooted(&pairs, |top| top.is_root() || is_detached(top)) {
+        return Err(Violation::NotRooted { vertex });
     }
     Ok(())
 }
@@ -208,14 +206,27 @@ fn parent_in(parents: &[(VertexId, VertexId, EdgeId)], child: VertexId) -> Optio
     Some((parents[at].1, parents[at].2))
 }
 
-/// The end of the way up from `start`; `None` if it is longer than `edges`, that is, if it meets a vertex
-/// twice.
-fn top_of(start: VertexId, edges: usize, parent: impl Fn(VertexId) -> Option<VertexId>) -> Option<VertexId> {
-    let mut at = start;
-    for _ in 0..=edges {
-        match parent(at) {
-            Some(next) => at = next,
-            None => return Some(at),
+/// The first child in `parents` (child and parent, by child) whose way up meets a vertex twice or ends at a
+/// top that is none. Each edge is walked twice at most.
+fn first_unrooted(parents: &[(VertexId, VertexId)], is_top: impl Fn(VertexId) -> bool) -> Option<VertexId> {
+    let index = |vertex| parents.binary_search_by_key(&vertex, |&(child, _)| child).ok();
+    let mut rooted = vec![false; parents.len()];
+    for &(start, _) in parents {
+        let mut way = Vec::new();
+        let mut at = start;
+        while let Some(step) = index(at).filter(|&step| !rooted[step]) {
+            if way.len() == parents.len() {
+                return Some(start);
+            }
+            way.push(step);
+            at = parents[step].1;
+        }
+        // The way ended at a vertex that is known to be rooted, or at one without a parent.
+        if index(at).is_none() && !is_top(at) {
+            return Some(start);
+        }
+        for step in way {
+            rooted[step] = true;
         }
     }
     None
@@ -287,8 +298,7 @@ fn broken_claim(view: &View<'_>) -> Option<&'static str> {
         return Some("one kinematic parent");
     }
     parents.sort_unstable();
-    let parent = |child| parents.binary_search_by_key(&child, |entry| entry.0).ok().map(|at| parents[at].1);
-    if parents.iter().any(|&(child, _)| top_of(child, parents.len(), parent) != Some(VertexId::ROOT)) {
+    if first_unrooted(&parents, VertexId::is_root).is_some() {
         return Some("one kinematic tree");
     }
     let held = state.records().filter(|(_, record)| matches!(record, Record::Vertex(_)));

@@ -12,6 +12,8 @@ pub trait Semantics: Send + Sync {
     type State: Clone + Eq + Hash + Ord + Debug + Send + Sync;
     /// What one mutation broadcasts.
     type Delta: Clone + Eq + Hash + Ord + Debug + Send + Sync;
+    /// What the verdict on a state can depend on; `()` where every state is judged by itself.
+    type Shape: Eq + Hash + Debug + Send;
     /// A concrete mutation.
     type Mutation: Clone + Eq + Ord + Hash + Debug + Display + Send + Sync;
 
@@ -37,6 +39,19 @@ pub trait Semantics: Send + Sync {
 
     /// The join of two whole states, as the order of the semilattice defines it; `None` if there is none.
     fn join_states(&self, left: &Self::State, right: &Self::State) -> Option<Self::State>;
+
+    /// States of one shape have one verdict by [`judge`](Self::judge), so it is asked once for all of them.
+    /// `None`, the default, makes every state its own.
+    fn shape(&self, state: &Self::State) -> Option<Self::Shape> {
+        let _ = state;
+        None
+    }
+
+    /// Judges what the shape leaves out, in every state.
+    fn judge_each(&self, state: &Self::State) -> Result<Witnesses, Breach> {
+        let _ = state;
+        Ok(Witnesses::default())
+    }
 
     /// Judges one state by itself: every clause that must always hold of it.
     fn judge(&self, state: &Self::State) -> Result<Judged, Breach>;

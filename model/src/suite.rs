@@ -47,6 +47,22 @@ impl Subject<'_> {
         })
     }
 
+    /// The same, with mutations at the last vertex of the focus only.
+    pub fn at_last(
+        &self,
+        focus: usize,
+        bound: Bound,
+        kinds: &[MutationKind],
+        second_engine: bool,
+    ) -> Result<HistoryRun<Checked>, FocusError> {
+        let mut run = self.histories(focus, bound, kinds, second_engine)?;
+        let mut semantics = (*run.semantics).clone();
+        semantics.alphabet.at_last = true;
+        run.semantics = Arc::new(semantics);
+        run.name.push_str(", at the last");
+        Ok(run)
+    }
+
     /// The default runs of L1. `[spec: CHECK-3]`
     pub fn default_histories(&self) -> Result<Vec<HistoryRun<Checked>>, FocusError> {
         let all = MutationKind::ALL;
@@ -58,7 +74,7 @@ impl Subject<'_> {
             runs.push(self.histories(3, Bound { replicas: 2, mutations: 2 }, &pair, true)?);
         }
         for pair in pairs() {
-            runs.push(self.histories(2, Bound { replicas: 3, mutations: 2 }, &pair, true)?);
+            runs.push(self.at_last(2, Bound { replicas: 3, mutations: 2 }, &pair, true)?);
         }
         Ok(runs)
     }

@@ -62,6 +62,7 @@ pub struct Tables<S: Semantics> {
     joins: FxHashMap<(StateId, DeltaId), StateId>,
     moves: FxHashMap<(StateId, usize), Arc<[Move]>>,
     sensitive: FxHashMap<StateId, bool>,
+    shapes: FxHashMap<S::Shape, Judged>,
     renamed_states: FxHashMap<(StateId, usize), StateId>,
     renamed_deltas: FxHashMap<(DeltaId, usize), DeltaId>,
     /// What was seen.
@@ -79,6 +80,7 @@ impl<S: Semantics> Default for Tables<S> {
             joins: FxHashMap::default(),
             moves: FxHashMap::default(),
             sensitive: FxHashMap::default(),
+            shapes: FxHashMap::default(),
             renamed_states: FxHashMap::default(),
             renamed_deltas: FxHashMap::default(),
             witnesses: Witnesses::default(),
@@ -122,6 +124,11 @@ impl<S: Semantics> Tables<S> {
     /// The kinds of all deltas, by bit.
     pub fn all_kinds(&self) -> u32 {
         self.kinds.iter().fold(0, |all, kinds| all | kinds)
+    }
+
+    /// How many different shapes were judged.
+    pub fn shapes(&self) -> usize {
+        self.shapes.len()
     }
 
     /// How many different states and deltas were met.
@@ -201,7 +208,13 @@ impl<S: Semantics> Tables<S> {
     /// Judges a state and collects what it bears witness of.
     pub fn judge(&mut self, semantics: &S, state: &S::State) -> Result<Judged, Breach> {
         self.judged += 1;
+        self.witnesses.insert(semantics.judge_each(state)?);
+        let shape = semantics.shape(state);
+        if let Some(&judged) = shape.as_ref().and_then(|shape| self.shapes.get(shape)) {
+            return Ok(judged);
+        }
         let judged = semantics.judge(state)?;
+        self.shapes.extend(shape.map(|shape| (shape, judged)));
         self.witnesses.insert(judged.witnesses);
         Ok(judged)
     }

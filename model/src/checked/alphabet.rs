@@ -29,17 +29,20 @@ pub struct Alphabet {
     pub kinds: BTreeSet<MutationKind>,
     /// The vertices besides the root that replicas touch; what replicas add is always in focus.
     pub focus: Vec<VertexId>,
+    /// Whether only mutations at the last vertex of the focus are tried: what is added hangs on it, edges
+    /// have an end there, attributes are its own. For bounds at which the whole focus is too much.
+    pub at_last: bool,
 }
 
 impl Alphabet {
     /// All six kinds on a focus.
     pub fn all(focus: Vec<VertexId>) -> Self {
-        Self { kinds: MutationKind::ALL.into(), focus }
+        Self { kinds: MutationKind::ALL.into(), focus, at_last: false }
     }
 
     /// Some kinds on a focus.
     pub fn of(kinds: &[MutationKind], focus: Vec<VertexId>) -> Self {
-        Self { kinds: kinds.iter().copied().collect(), focus }
+        Self { kinds: kinds.iter().copied().collect(), focus, at_last: false }
     }
 
     /// The mutations that replica `replica` may try, whether or not the core accepts them.
@@ -48,13 +51,13 @@ impl Alphabet {
         let mut mutations = Vec::new();
         for kind in &self.kinds {
             match kind {
-                MutationKind::AddVertex => add_vertex(view, replica, &focus, &mut mutations),
-                MutationKind::AddEdge => add_edge(view, &focus, &mut mutations),
+                MutationKind::AddVertex => self.add_vertex(view, replica, &focus, &mut mutations),
+                MutationKind::AddEdge => self.add_edge(view, &focus, &mut mutations),
                 MutationKind::UpdateAttributes => self.update_attributes(view, &focus, &mut mutations),
                 MutationKind::RemoveEdge => self.remove_edge(view, &mut mutations),
                 MutationKind::MoveEdge => self.move_edge(view, &focus, &mut mutations),
                 MutationKind::RemoveVertex => {
-                    let removable = focus.iter().filter(|vertex| !vertex.is_root());
+                    let removable = focus.iter().filter(|vertex| !vertex.is_root() && self.at(**vertex));
                     mutations.extend(removable.map(|&vertex| Mutation::RemoveVertex { vertex }));
                 }
             }
@@ -62,13 +65,19 @@ impl Alphabet {
         mutations
     }
 
+    /// Whether mutations at this vertex are tried.
+    fn at(&self, vertex: VertexId) -> bool {
+        !self.at_last || self.focus.last() == Some(&vertex)
+    }
+
     fn in_focus(&self, vertex: VertexId) -> bool {
         vertex.is_root() || self.focus.contains(&vertex) || vertex.0.replica != dsr_core::ReplicaId::SCENE
     }
 
     fn update_attributes(&self, view: &View<'_>, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
-        let vertices = focus.iter().filter(|vertex| !vertex.is_root()).map(|&vertex| ElementId::Vertex(vertex));
-        let symbolic = self.edges_in_focus(view).filter(|shown| !shown.edge.is_rt());
+        let targets = focus.iter().filter(|vertex| !vertex.is_root() && self.at(**vertex));
+        let vertices = targets.map(|&vertex| ElementId::Vertex(vertex));
+        let symbolic = self.edges_in_focus(view).filter(|shown| !shown.edge.is_rt() && !self.at_last);
         let edges = symbolic.map(|shown| ElementId::Edge(shown.id));
         for target in vertices.chain(edges) {
             let update = |value| Mutation::UpdateAttributes { target, updates: [(ATTRIBUTE.into(), value)].into() };
@@ -105,39 +114,40 @@ impl Alphabet {
     fn edges_in_focus<'v>(&self, view: &'v View<'_>) -> impl Iterator<Item = dsr_core::ShownEdge<'v>> {
         let inside = |shown: &&dsr_core::ShownEdge<'v>| {
             let (from, to) = (shown.edge.from, shown.edge.to);
-            self.in_focus(from) && self.in_focus(to) && !to.is_root() && (!from.is_root() || shown.edge.is_rt())
+            let between = self.in_focus(from) && self.in_focus(to) && (self.at(from) || self.at(to));
+            between && !to.is_root() && (!from.is_root() || shown.edge.is_rt())
         };
         view.edges().iter().filter(inside).copied()
     }
-}
 
-/// Below each vertex of the tree, and *in* each vertex but the root; one more with a shared name below the
-/// root.
-fn add_vertex(view: &View<'_>, replica: usize, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
-    let Some(dot) = view.state().next_dot(replica_id(replica)) else { return };
-    let vertex = NewVertex::new(NEW_TYPE, &fresh_name(dot));
-    for &other in focus {
-        let inside = (!other.is_root()).then(|| VertexLink::to(FUNCTIONAL, other));
-        let links = core::iter::once(VertexLink::child_of(other)).chain(inside);
-        mutations.extend(links.map(|link| Mutation::AddVertex { vertex: vertex.clone(), link }));
+    /// Below each vertex of the tree, and *in* each vertex but the root; one more with a shared name below
+    /// the root.
+    fn add_vertex(&self, view: &View<'_>, replica: usize, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
+        let Some(dot) = view.state().next_dot(replica_id(replica)) else { return };
+        let vertex = NewVertex::new(NEW_TYPE, &fresh_name(dot));
+        for &other in focus.iter().filter(|other| self.at(**other)) {
+            let inside = (!other.is_root() && !self.at_last).then(|| VertexLink::to(FUNCTIONAL, other));
+            let links = core::iter::once(VertexLink::child_of(other)).chain(inside);
+            mutations.extend(links.map(|link| Mutation::AddVertex { vertex: vertex.clone(), link }));
+        }
+        let twin = NewVertex::new(NEW_TYPE, SHARED_NAME);
+        mutations.push(Mutation::AddVertex { vertex: twin, link: VertexLink::child_of(VertexId::ROOT) });
     }
-    let twin = NewVertex::new(NEW_TYPE, SHARED_NAME);
-    mutations.push(Mutation::AddVertex { vertex: twin, link: VertexLink::child_of(VertexId::ROOT) });
-}
 
-/// Between each two vertices besides the root a functional edge, and a plain one from the older to the
-/// younger; a kinematic one to each vertex that has no parent.
-fn add_edge(view: &View<'_>, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
-    for &from in focus {
-        for &to in focus.iter().filter(|&&to| to != from) {
-            let orphan = matches!(view.placement(to), Some(Placement::Outside | Placement::Detached));
-            let symbolic = !from.is_root() && !to.is_root();
-            let labels = [(FUNCTIONAL, symbolic), (PLAIN, symbolic && from < to), (RT, orphan)];
-            let labels = labels.into_iter().filter(|(_, wanted)| *wanted);
-            mutations.extend(labels.map(|(label, _)| Mutation::AddEdge {
-                key: EdgeKey::new(from, label, to),
-                attributes: AttributeMap::new(),
-            }));
+    /// Between each two vertices besides the root a functional edge, and a plain one from the older to the
+    /// younger; a kinematic one to each vertex that has no parent.
+    fn add_edge(&self, view: &View<'_>, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
+        for &from in focus {
+            for &to in focus.iter().filter(|&&to| to != from && (self.at(from) || self.at(to))) {
+                let orphan = matches!(view.placement(to), Some(Placement::Outside | Placement::Detached));
+                let symbolic = !from.is_root() && !to.is_root();
+                let labels = [(FUNCTIONAL, symbolic), (PLAIN, symbolic && from < to), (RT, orphan)];
+                let labels = labels.into_iter().filter(|(_, wanted)| *wanted);
+                mutations.extend(labels.map(|(label, _)| Mutation::AddEdge {
+                    key: EdgeKey::new(from, label, to),
+                    attributes: AttributeMap::new(),
+                }));
+            }
         }
     }
 }

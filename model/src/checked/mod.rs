@@ -3,6 +3,9 @@
 pub mod alphabet;
 mod intent;
 mod renaming;
+mod shape;
+
+pub use shape::Shape;
 
 use crate::semantics::{Breach, Judged, Semantics, Step, Witnesses};
 use alphabet::Alphabet;
@@ -109,9 +112,8 @@ fn breach(violation: &Violation) -> Breach {
 
 /// Judges a view by every clause that holds of one state. `[property: INV-1]` `[property: INV-2]`
 /// `[property: INV-3]` `[property: INV-4]` `[property: INV-5]` `[property: INV-6]` `[property: VIEW-9]`
-/// `[property: VIEW-10]` `[property: INTENT-2]` `[property: STATE-6]`
+/// `[property: VIEW-10]` `[property: INTENT-2]`
 pub fn judge_view(view: &View<'_>) -> Result<(), Breach> {
-    check_well_formed(view.state()).map_err(|fault| Breach::new("STATE-6", fault))?;
     check_view(view).map_err(|violation| breach(&violation))?;
     check_repairs(view).map_err(|violation| breach(&violation))?;
     intent::check_hidden_are_outranked(view)
@@ -131,9 +133,6 @@ fn witnesses_of(view: &View<'_>) -> Witnesses {
     if state.records().any(|(_, record)| record.anchors().any(unseen)) {
         seen.insert(Witnesses::bit(PENDING));
     }
-    if state.context().cloud_runs().next().is_some() {
-        seen.insert(Witnesses::bit(CLOUD));
-    }
     seen
 }
 
@@ -151,6 +150,7 @@ impl Semantics for Checked {
     type State = State;
     type Delta = Delta;
     type Mutation = Act;
+    type Shape = Shape;
 
     fn name(&self) -> String {
         "checked".into()
@@ -183,7 +183,19 @@ impl Semantics for Checked {
         Some(left.joined(right))
     }
 
+    fn shape(&self, state: &State) -> Option<Shape> {
+        shape::shape_of(state)
+    }
+
+    /// `[property: STATE-6]`
+    fn judge_each(&self, state: &State) -> Result<Witnesses, Breach> {
+        check_well_formed(state).map_err(|fault| Breach::new("STATE-6", fault))?;
+        let cloud = state.context().cloud_runs().next().is_some();
+        Ok(if cloud { Witnesses::bit(CLOUD) } else { Witnesses::default() })
+    }
+
     fn judge(&self, state: &State) -> Result<Judged, Breach> {
+        self.judge_each(state)?;
         let view = view(state, &self.dictionary);
         judge_view(&view)?;
         Ok(Judged { witnesses: witnesses_of(&view), order_sensitive: is_order_sensitive(&view) })

@@ -155,6 +155,6 @@ impl Scenario {
     /// What a free replica may do; `None` for one with a script. `[spec: SCEN-6]`
     fn alphabet(&self, replica: &Replica) -> Option<Checked> {
         let Conduct::Free { kinds, .. } = &replica.conduct else { return None };
-        Some(self.checked(Alphabet { kinds: kinds.clone(), focus: self.focus.clone() }))
+        Some(self.checked(Alphabet { kinds: kinds.clone(), focus: self.focus.clone(), at_last: false }))
     }
 }
