@@ -127,10 +127,11 @@ const fn clause(id: &'static str, claim: &'static str, what: &'static str) -> Cl
 }
 
 /// What every semantics must keep.
-const CLAUSES: [Clause; 19] = [
+const CLAUSES: [Clause; 21] = [
     clause("JOIN-3", "L3", "the same deltas in any order, once or twice, lead to the same state"),
     clause("JOIN-4", "L2", "deliveries and mutations only add to what was seen"),
     clause("MUT-0", "L2", "a mutation's state is the old one joined with its delta"),
+    clause("MUT-0.1", "L2", "a delta speaks only of what it makes and of what its author held"),
     clause("ID-3", "L3", "no dot is used twice"),
     clause("STAMP-1", "V3", "a new claim outranks all that its author held"),
     clause("SYNC-3", "L3", "resynchronisation by digest leads to the join of both"),
@@ -144,6 +145,7 @@ const CLAUSES: [Clause; 19] = [
     clause("INV-6", "V1", "one edge per key and per functional label"),
     clause("VIEW-9", "V1", "what is broken is repaired and reported"),
     clause("VIEW-10", "V2", "what is not broken is shown as it is"),
+    clause("VIEW-12", "V2", "no local mutation makes a repair where there was none"),
     clause("INTENT-1", "V3", "a mutation shows its effect to its author"),
     clause("INTENT-2", "V3", "a claim is hidden only by greater ones"),
     clause("MUT-4.2", "V2", "no mutation strands a vertex that its author sees"),

@@ -4,7 +4,7 @@
 use super::Checked;
 use crate::semantics::{Breach, Step};
 use dsr_core::{
-    Edge, EdgeId, EdgeKey, Mutation, Placement, RT, Record, Repair, Rule, State, VertexId, View, invariant, view,
+    Dot, Edge, EdgeId, EdgeKey, Mutation, Placement, RT, Record, Repair, Rule, Run, State, VertexId, View, invariant, view,
 };
 
 /// The effect of a mutation is shown by its author at once; the delta brings the author to its own state,
@@ -18,6 +18,7 @@ pub(super) fn check_step(before: &View<'_>, mutation: &Mutation, step: &Step<Che
         return Err(Breach::new("JOIN-4", "the author's new state does not include its old one"));
     }
     check_fresh(state, &step.delta)?;
+    check_speaks_of(state, &step.delta)?;
     let after = view(&step.after, before.dictionary());
     check_effect(&after, mutation, &step.delta)?;
     // What is added to a stranded vertex shares its lot; what was there before must not come to it.
@@ -27,6 +28,30 @@ pub(super) fn check_step(before: &View<'_>, mutation: &Mutation, step: &Step<Che
         .find(|&&vertex| before.has_vertex(vertex) && !before.stranded().contains(&vertex));
     match newly {
         Some(vertex) => Err(Breach::new("MUT-4.2", format_args!("{vertex} is stranded by a local mutation"))),
+        None => check_unrepaired(before, &after),
+    }
+}
+
+/// A local mutation breaks nothing by itself: who saw no repair before sees none after it.
+/// `[property: VIEW-12]`
+fn check_unrepaired(before: &View<'_>, after: &View<'_>) -> Result<(), Breach> {
+    match after.repairs() {
+        [repair, ..] if before.repairs().is_empty() => {
+            Err(Breach::new("VIEW-12", format_args!("after a local mutation: {repair}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// A delta speaks of the dots that it makes and of dots that its author held, of no others.
+/// `[property: MUT-0.1]`
+fn check_speaks_of(before: &State, delta: &State) -> Result<(), Breach> {
+    let foreign = |dot: &Dot| !delta.holds(*dot) && !before.holds(*dot);
+    match delta.context().runs().flat_map(Run::dots).find(foreign) {
+        Some(dot) => {
+            let detail = format_args!("the delta speaks of {dot}, which its author did not hold");
+            Err(Breach::new("MUT-0.1", detail))
+        }
         None => Ok(()),
     }
 }

@@ -3,17 +3,17 @@
 //!
 //! The layer above explores histories and argues that no schedule can do anything that they do not show
 //! (see [`histories`](crate::histories)). This layer makes no such argument: it explores the schedules
-//! themselves, and [`reduction`] compares what both reached.
+//! themselves, and [`check_reduction`] compares what both reached.
 //!
 //! | room | what |
 //! |---|---|
-//! | [`state`] | a moment of all replicas and of the network, and what may happen next |
-//! | [`space`] | successors and judgement, whatever the engine |
-//! | [`model`] | the space as stateright sees it |
-//! | [`run`] | a run and its report |
-//! | [`engine`] | a search of our own: counts, and shortest counterexamples |
-//! | [`reduction`] | histories against schedules |
-//! | [`restricted`] | a semantics with a few concrete mutations only |
+//! | `state` | a moment of all replicas and of the network, and what may happen next |
+//! | `space` | successors and judgement, whatever the engine |
+//! | `model` | the space as stateright sees it |
+//! | `run` | a run and its report |
+//! | `engine` | a search of our own: counts, and shortest counterexamples |
+//! | `reduction` | histories against schedules |
+//! | `restricted` | a semantics with a few concrete mutations only |
 
 mod engine;
 mod model;

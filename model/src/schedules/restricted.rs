@@ -1,6 +1,6 @@
 //! A semantics with a few concrete mutations only.
 
-use crate::semantics::{Breach, Clause, Judged, Semantics, Step};
+use crate::semantics::{Breach, Clause, Judged, Semantics, Step, Witnesses};
 use std::sync::Arc;
 
 /// Another semantics in which replicas try only the given mutations.
@@ -15,7 +15,16 @@ pub struct Restricted<S: Semantics> {
 impl<S: Semantics> Semantics for Restricted<S> {
     type State = S::State;
     type Delta = S::Delta;
+    type Shape = S::Shape;
     type Mutation = S::Mutation;
+
+    fn shape(&self, state: &S::State) -> Option<S::Shape> {
+        self.whole.shape(state)
+    }
+
+    fn judge_each(&self, state: &S::State) -> Result<Witnesses, Breach> {
+        self.whole.judge_each(state)
+    }
 
     fn name(&self) -> String {
         self.whole.name()

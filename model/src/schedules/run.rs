@@ -3,7 +3,7 @@
 use super::space::{HAPPENINGS, Schedules};
 use super::{ScheduleBound, ScheduleModel, engine, trace};
 use crate::progress::Progress;
-use crate::semantics::{Breach, Semantics};
+use crate::semantics::{Breach, Clause, Semantics};
 use crate::trace::Trace;
 use crate::verdict::{
     Evidence, PropertyKind, PropertyReport, RunReport, RunTrace, StateCounts, Verdict, collision_bound,
@@ -13,6 +13,16 @@ use std::sync::Arc;
 
 /// The most schedules that the search for a shortest counterexample looks at.
 const COUNTEREXAMPLE_MAX: usize = 2_000_000;
+
+/// What this layer judges besides.
+const QUIESCENCE: [Clause; 2] = [
+    Clause {
+        id: "JOIN-5",
+        claim: "L3",
+        what: "from every moment, delivering what is missing makes all equal",
+    },
+    Clause { id: "SYNC-5", claim: "L3", what: "from every moment, resynchronisation makes all equal" },
+];
 
 /// A run of L2.
 #[derive(Clone, Debug)]
@@ -99,7 +109,7 @@ impl<S: Semantics + 'static> ScheduleRun<S> {
             what: what.into(),
             trace: None,
         };
-        let always = self.semantics.clauses().into_iter().map(|clause| {
+        let always = self.semantics.clauses().into_iter().chain(QUIESCENCE).map(|clause| {
             let violated = breach.is_some_and(|breach| breach.clause == clause.id);
             let verdict = Verdict::of(Evidence { violated, cut: !complete, unseen: 0, ..evidence });
             property(clause.id.into(), PropertyKind::Always, verdict, clause.claim, clause.what)
