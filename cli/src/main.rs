@@ -11,6 +11,10 @@ use clap::{Parser, Subcommand};
 use status::Status;
 use std::process::ExitCode;
 
+/// The checker allocates small maps by the million; this halves its time.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 /// Checks, shows and converts Deep State Representation graphs.
 #[derive(Parser, Debug)]
 #[command(name = "dsr", version, after_help = status::HELP, arg_required_else_help = true)]

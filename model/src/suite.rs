@@ -65,13 +65,16 @@ impl Subject<'_> {
 
     /// The default runs of L1. `[spec: CHECK-3]`
     pub fn default_histories(&self) -> Result<Vec<HistoryRun<Checked>>, FocusError> {
-        let all = MutationKind::ALL;
+        let twice = Bound { replicas: 2, mutations: 2 };
         let mut runs = vec![
-            self.histories(2, Bound { replicas: 2, mutations: 2 }, &all, true)?,
-            self.histories(4, Bound { replicas: 3, mutations: 1 }, &all, true)?,
+            self.histories(4, Bound { replicas: 3, mutations: 1 }, &K::ALL, true)?,
+            self.at_last(2, twice, &K::ALL, true)?,
         ];
         for pair in pairs() {
-            runs.push(self.histories(3, Bound { replicas: 2, mutations: 2 }, &pair, true)?);
+            // Additions multiply: a whole focus of them is for `--deep`.
+            let adds = pair.contains(&K::AddVertex);
+            let run = if adds { self.at_last(3, twice, &pair, true)? } else { self.histories(3, twice, &pair, true)? };
+            runs.push(run);
         }
         for pair in pairs() {
             runs.push(self.at_last(2, Bound { replicas: 3, mutations: 2 }, &pair, true)?);
@@ -97,18 +100,26 @@ impl Subject<'_> {
 
     /// The runs of `--deep`, smallest first. `[spec: CHECK-3]`
     pub fn deep_histories(&self) -> Result<Vec<HistoryRun<Checked>>, FocusError> {
-        let structural = [[K::MoveEdge, K::RemoveVertex], [K::AddVertex, K::RemoveVertex], [K::RemoveEdge, K::RemoveVertex]];
-        let bounds = [(2, 3), (4, 2), (3, 3)];
-        let mut runs = Vec::new();
-        for (replicas, mutations) in bounds {
-            for pair in structural {
+        let twice = Bound { replicas: 2, mutations: 2 };
+        let mut runs = vec![
+            self.histories(2, twice, &K::ALL, false)?,
+            self.at_last(3, twice, &K::ALL, false)?,
+            self.at_last(2, Bound { replicas: 3, mutations: 2 }, &K::ALL, false)?,
+        ];
+        for other in [K::AddEdge, K::UpdateAttributes, K::RemoveEdge, K::MoveEdge, K::RemoveVertex] {
+            runs.push(self.histories(3, twice, &[K::AddVertex, other], false)?);
+        }
+        for (replicas, mutations) in [(2, 3), (3, 2)] {
+            for pair in pairs() {
                 runs.push(self.histories(2, Bound { replicas, mutations }, &pair, false)?);
             }
         }
-        runs.push(self.histories(3, Bound { replicas: 2, mutations: 2 }, &K::ALL, false)?);
-        for pair in pairs() {
-            runs.push(self.histories(2, Bound { replicas: 2, mutations: 3 }, &pair, false)?);
+        for (replicas, mutations) in [(3, 3), (4, 2)] {
+            for pair in pairs() {
+                runs.push(self.at_last(2, Bound { replicas, mutations }, &pair, false)?);
+            }
         }
+        runs.push(self.histories(3, twice, &K::ALL, false)?);
         runs.push(self.histories(2, Bound { replicas: 3, mutations: 2 }, &K::ALL, false)?);
         Ok(runs)
     }

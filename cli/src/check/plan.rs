@@ -31,6 +31,9 @@ fn suite(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
     let scene = Scene::read(FLAT, &dictionary, Strictness::Strict).map_err(|error| error.to_string())?.scene;
     let subject = Subject { state: &scene.state, dictionary: &dictionary, names: &FLAT_FOCUS };
     let mut jobs: Vec<Box<dyn Job>> = Vec::new();
+    if wanted(Layer::L2) {
+        jobs.extend(subject.schedules().map_err(|error| error.to_string())?);
+    }
     if wanted(Layer::L1) {
         let histories = if arguments.deep { subject.deep_histories() } else { subject.default_histories() };
         for run in histories.map_err(|error| error.to_string())? {
@@ -44,9 +47,6 @@ fn suite(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
         for records in records {
             jobs.push(Box::new(AlgebraRun { semantics: Arc::clone(&semantics), records }));
         }
-    }
-    if wanted(Layer::L2) {
-        jobs.extend(subject.schedules().map_err(|error| error.to_string())?);
     }
     if wanted(Layer::Scenario) {
         for (file, text) in shipped() {

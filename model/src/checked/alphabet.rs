@@ -3,7 +3,7 @@
 use super::renaming::fresh_name;
 use super::replica_id;
 use dsr_core::{
-    AttributeMap, EdgeKey, ElementId, Mutation, MutationKind, NewVertex, Placement, RT, Value, VertexId, VertexLink, View,
+    AttributeMap, Edge, EdgeKey, ElementId, Mutation, MutationKind, NewVertex, Placement, RT, ReplicaId, Value, VertexId, VertexLink, View,
 };
 use std::collections::BTreeSet;
 
@@ -29,8 +29,9 @@ pub struct Alphabet {
     pub kinds: BTreeSet<MutationKind>,
     /// The vertices besides the root that replicas touch; what replicas add is always in focus.
     pub focus: Vec<VertexId>,
-    /// Whether only mutations at the last vertex of the focus are tried: what is added hangs on it, edges
-    /// have an end there, attributes are its own. For bounds at which the whole focus is too much.
+    /// Whether only mutations of the last vertex of the focus are tried, one or two of each kind: its
+    /// attribute is set, a child is added to it, its own edges are added, moved and removed, it is removed.
+    /// For bounds at which the whole focus is too much.
     pub at_last: bool,
 }
 
@@ -71,7 +72,8 @@ impl Alphabet {
     }
 
     fn in_focus(&self, vertex: VertexId) -> bool {
-        vertex.is_root() || self.focus.contains(&vertex) || vertex.0.replica != dsr_core::ReplicaId::SCENE
+        let is_added = vertex.0.replica != ReplicaId::SCENE;
+        vertex.is_root() || self.focus.contains(&vertex) || (is_added && !self.at_last)
     }
 
     fn update_attributes(&self, view: &View<'_>, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
@@ -82,7 +84,7 @@ impl Alphabet {
         for target in vertices.chain(edges) {
             let update = |value| Mutation::UpdateAttributes { target, updates: [(ATTRIBUTE.into(), value)].into() };
             mutations.push(update(Some(Value::Int(1))));
-            if view.attribute(target, ATTRIBUTE).is_some() {
+            if !self.at_last && view.attribute(target, ATTRIBUTE).is_some() {
                 mutations.push(update(None));
             }
         }
@@ -114,7 +116,7 @@ impl Alphabet {
     fn edges_in_focus<'v>(&self, view: &'v View<'_>) -> impl Iterator<Item = dsr_core::ShownEdge<'v>> {
         let inside = |shown: &&dsr_core::ShownEdge<'v>| {
             let (from, to) = (shown.edge.from, shown.edge.to);
-            let between = self.in_focus(from) && self.in_focus(to) && (self.at(from) || self.at(to));
+            let between = self.in_focus(from) && self.in_focus(to) && self.at(owner(shown.edge));
             between && !to.is_root() && (!from.is_root() || shown.edge.is_rt())
         };
         view.edges().iter().filter(inside).copied()
@@ -124,13 +126,19 @@ impl Alphabet {
     /// the root.
     fn add_vertex(&self, view: &View<'_>, replica: usize, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
         let Some(dot) = view.state().next_dot(replica_id(replica)) else { return };
-        let vertex = NewVertex::new(NEW_TYPE, &fresh_name(dot));
-        for &other in focus.iter().filter(|other| self.at(**other)) {
-            let inside = (!other.is_root() && !self.at_last).then(|| VertexLink::to(FUNCTIONAL, other));
-            let links = core::iter::once(VertexLink::child_of(other)).chain(inside);
-            mutations.extend(links.map(|link| Mutation::AddVertex { vertex: vertex.clone(), link }));
-        }
+        let fresh = NewVertex::new(NEW_TYPE, &fresh_name(dot));
         let twin = NewVertex::new(NEW_TYPE, SHARED_NAME);
+        if let (true, Some(&last)) = (self.at_last, self.focus.last()) {
+            // The shared name as long as it is free, so that names clash; then a fresh one.
+            let vertex = if view.vertex_by_name(SHARED_NAME).is_none() { twin } else { fresh };
+            mutations.push(Mutation::AddVertex { vertex, link: VertexLink::child_of(last) });
+            return;
+        }
+        for &other in focus {
+            let inside = (!other.is_root()).then(|| VertexLink::to(FUNCTIONAL, other));
+            let links = core::iter::once(VertexLink::child_of(other)).chain(inside);
+            mutations.extend(links.map(|link| Mutation::AddVertex { vertex: fresh.clone(), link }));
+        }
         mutations.push(Mutation::AddVertex { vertex: twin, link: VertexLink::child_of(VertexId::ROOT) });
     }
 
@@ -138,10 +146,11 @@ impl Alphabet {
     /// younger; a kinematic one to each vertex that has no parent.
     fn add_edge(&self, view: &View<'_>, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
         for &from in focus {
-            for &to in focus.iter().filter(|&&to| to != from && (self.at(from) || self.at(to))) {
+            for &to in focus.iter().filter(|&&to| to != from) {
                 let orphan = matches!(view.placement(to), Some(Placement::Outside | Placement::Detached));
-                let symbolic = !from.is_root() && !to.is_root();
-                let labels = [(FUNCTIONAL, symbolic), (PLAIN, symbolic && from < to), (RT, orphan)];
+                let symbolic = !from.is_root() && !to.is_root() && self.at(from);
+                let plain = symbolic && (from < to || self.at_last);
+                let labels = [(FUNCTIONAL, symbolic), (PLAIN, plain), (RT, orphan && self.at(to))];
                 let labels = labels.into_iter().filter(|(_, wanted)| *wanted);
                 mutations.extend(labels.map(|(label, _)| Mutation::AddEdge {
                     key: EdgeKey::new(from, label, to),
@@ -150,4 +159,9 @@ impl Alphabet {
             }
         }
     }
+}
+
+/// Whose edge it is: the child's for a kinematic one, else the source's.
+fn owner(edge: &Edge) -> VertexId {
+    if edge.is_rt() { edge.to } else { edge.from }
 }
