@@ -183,7 +183,8 @@ pub fn check_tree(view: &View<'_>) -> Result<(), Violation> {
             return Err(Violation::Misplaced { vertex });
         }
     }
-    let pairs: Vec<(VertexId, VertexId)> = parents.iter().map(|&(child, parent, _)| (child, parent)).collect();
+    let pairs: Vec<(VertexId, VertexId)> =
+        parents.iter().map(|&(child, parent, _)| (child, parent)).collect();
     if let Some(vertex) = first_unrooted(&pairs, |top| top.is_root() || is_detached(top)) {
         return Err(Violation::NotRooted { vertex });
     }
@@ -331,8 +332,13 @@ pub fn check_no_remains(state: &State) -> Result<(), crate::Malformed> {
 
 /// What is removed stays removed: no dot dead in `before` is held in `after`. `[property: STATE-3]`
 pub fn check_removal_is_final(before: &State, after: &State) -> Result<(), Dot> {
-    match after.records().map(|(dot, _)| dot).find(|&dot| before.is_dead(dot)) {
-        Some(dot) => Err(dot),
-        None => Ok(()),
+    let mut kept = before.records().map(|(dot, _)| dot).peekable();
+    for (dot, _) in after.records() {
+        while kept.next_if(|&known| known < dot).is_some() {}
+        // What was held before cannot have been dead.
+        if kept.peek() != Some(&dot) && before.context().contains(dot) {
+            return Err(dot);
+        }
     }
+    Ok(())
 }

@@ -55,7 +55,10 @@ pub struct Counterexample<S: Semantics> {
 /// The first fault in breadth-first order: with the fewest mutations. Judges every history.
 ///
 /// `None` if there is none among the first `states_max` histories.
-pub fn find_fault<S: Semantics>(histories: &mut Histories<S>, states_max: usize) -> Option<Counterexample<S>> {
+pub fn find_fault<S: Semantics>(
+    histories: &mut Histories<S>,
+    states_max: usize,
+) -> Option<Counterexample<S>> {
     let start = histories.start();
     let mut seen = FxHashSet::from_iter([start]);
     let mut nodes: Vec<(History, Option<(usize, Choice)>)> = vec![(start, None)];
@@ -64,7 +67,10 @@ pub fn find_fault<S: Semantics>(histories: &mut Histories<S>, states_max: usize)
     while at < nodes.len().min(states_max) {
         let history = nodes[at].0;
         if let Err(fault) = histories.judge(&history) {
-            return Some(Counterexample { choices: path(&nodes, at), fault: FoundFault::Delivered(shrink(histories, fault)) });
+            return Some(Counterexample {
+                choices: path(&nodes, at),
+                fault: FoundFault::Delivered(shrink(histories, fault)),
+            });
         }
         successors.clear();
         if let Err(fault) = histories.successors(&history, &mut successors) {

@@ -37,7 +37,12 @@ pub enum FocusError {
 ///
 /// What holds a vertex (its ancestors in the tree) is part of the graph, not of the focus. A search over the
 /// whole scene would do the same work in every state for elements that nobody touches.
-pub fn cut(state: &State, dictionary: &Dictionary, names: &[&str], attribute: &str) -> Result<Focus, FocusError> {
+pub fn cut(
+    state: &State,
+    dictionary: &Dictionary,
+    names: &[&str],
+    attribute: &str,
+) -> Result<Focus, FocusError> {
     let graph = view(state, dictionary);
     let mut vertices = Vec::new();
     for &name in names {
@@ -55,8 +60,11 @@ pub fn cut(state: &State, dictionary: &Dictionary, names: &[&str], attribute: &s
         Record::Edge(edge) => kept.contains(&edge.from) && kept.contains(&edge.to),
         Record::Write(write) => Some(write.target) == target && &*write.name == attribute,
     };
-    let records: Vec<(Dot, Record)> =
-        state.records().filter(|(dot, record)| keeps(*dot, record)).map(|(dot, record)| (dot, record.clone())).collect();
+    let records: Vec<(Dot, Record)> = state
+        .records()
+        .filter(|(dot, record)| keeps(*dot, record))
+        .map(|(dot, record)| (dot, record.clone()))
+        .collect();
     // What was cut away counts as removed: seen, and held no more.
     Ok(Focus { state: State::assemble(records, state.context().clone()), vertices })
 }
@@ -70,7 +78,13 @@ fn way_to_root(graph: &View<'_>, vertex: VertexId) -> Vec<VertexId> {
         frontier.remove(0);
         for shown in graph.edges() {
             let (from, to) = (shown.edge.from, shown.edge.to);
-            let next = if from == at { to } else if to == at { from } else { continue };
+            let next = if from == at {
+                to
+            } else if to == at {
+                from
+            } else {
+                continue;
+            };
             if !next.is_root() && !toward.contains_key(&next) {
                 toward.insert(next, at);
                 frontier.push(next);
@@ -87,7 +101,8 @@ fn way_to_root(graph: &View<'_>, vertex: VertexId) -> Vec<VertexId> {
 
 fn unknown(name: &str, graph: &View<'_>) -> FocusError {
     const SHOWN_MAX: usize = 40;
-    let names = graph.vertices().iter().filter_map(|&vertex| graph.vertex(vertex).map(|vertex| &*vertex.name));
+    let names =
+        graph.vertices().iter().filter_map(|&vertex| graph.vertex(vertex).map(|vertex| &*vertex.name));
     let known: Vec<&str> = names.take(SHOWN_MAX).collect();
     FocusError::UnknownName { name: name.into(), known: known.join(", ") }
 }

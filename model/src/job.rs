@@ -72,7 +72,8 @@ impl<S: Semantics + 'static> Job for ReductionRun<S> {
         let mut run = RunReport::new(self.name(), self.layer(), self.semantics.name(), progress.seconds());
         run.replicas = self.bound.everybody();
         run.mutations = self.bound.mutations;
-        let mut property = PropertyReport::always("CHECK-7", "", "histories reach what schedules do, and judge all of it");
+        let mut property =
+            PropertyReport::always("CHECK-7", "", "histories reach what schedules do, and judge all of it");
         match outcome {
             Ok(reduction) => {
                 run.states = StateCounts {
@@ -121,10 +122,16 @@ impl<S: Algebra> Job for AlgebraRun<S> {
         let mut run = RunReport::new(self.name(), self.layer(), self.semantics.name(), progress.seconds());
         run.mutations = self.records;
         let states = report.states as u64;
-        run.states = StateCounts { unique: states, generated: report.instances(), judged: states, diamonds: 0 };
+        run.states =
+            StateCounts { unique: states, generated: report.instances(), judged: states, diamonds: 0 };
         run.properties = report.laws.iter().map(|law| law_report(law)).collect();
         run.verdict = worst(&run.properties);
-        run.notes.push(format!("{} families, {} instances of {} laws", report.families, report.instances(), report.laws.len()));
+        run.notes.push(format!(
+            "{} families, {} instances of {} laws",
+            report.families,
+            report.instances(),
+            report.laws.len()
+        ));
         if let Some(law) = report.violation() {
             let example = law.example.as_ref();
             run.notes.push(format!("[{}] {}", law.clause, law.law));
@@ -132,7 +139,10 @@ impl<S: Algebra> Job for AlgebraRun<S> {
                 clause: law.clause.into(),
                 detail: example.detail.clone(),
                 steps: example.states.len(),
-                text: example.states.iter().fold(example.detail.clone(), |text, (name, state)| format!("{text}\n  {name}: {state}")),
+                text:
+                    example.states.iter().fold(example.detail.clone(), |text, (name, state)| {
+                        format!("{text}\n  {name}: {state}")
+                    }),
                 json: serde_json::to_value(example).unwrap_or_default(),
             }));
         }
@@ -178,7 +188,8 @@ impl Job for ScenarioRun {
     }
 
     fn run(&self, progress: &Arc<Progress>) -> RunReport {
-        let options = scenario::Options { histories_max: progress.limits().states_max.min(SCENARIO_HISTORIES_MAX),
+        let options = scenario::Options {
+            histories_max: progress.limits().states_max.min(SCENARIO_HISTORIES_MAX),
             ..scenario::Options::default()
         };
         let report = self.scenario.check(options);
@@ -201,9 +212,13 @@ impl Job for ScenarioRun {
                 + run.properties.iter().filter(|property| property.verdict == Verdict::Vacuous).count(),
         };
         run.verdict = Verdict::of(evidence);
-        run.notes.extend(report.idle.iter().map(|step| format!("{} never takes its step {}", step.replica, step.step)));
+        run.notes.extend(
+            report.idle.iter().map(|step| format!("{} never takes its step {}", step.replica, step.step)),
+        );
         if let scenario::Coverage::ReachedOnly { histories } = report.coverage {
-            run.notes.push(format!("{histories} sets of deltas are too large to judge every subset: states reached only"));
+            run.notes.push(format!(
+                "{histories} sets of deltas are too large to judge every subset: states reached only"
+            ));
         }
         run.traces = scenario_traces(&report);
         run
@@ -219,7 +234,14 @@ fn scenario_properties(report: &scenario::Report) -> Vec<PropertyReport> {
         unseen: 0,
     });
     let clause = report.breach.as_ref().map_or("clauses of L1", |breach| breach.clause);
-    let judged = PropertyReport { verdict: own, ..PropertyReport::always(clause, "", "convergence, invariants, repairs, intent; not resynchronisation") };
+    let judged = PropertyReport {
+        verdict: own,
+        ..PropertyReport::always(
+            clause,
+            "",
+            "convergence, invariants, repairs, intent; not resynchronisation",
+        )
+    };
     let properties = report.properties.iter().map(|property| {
         let (kind, verdict) = match property.verdict {
             scenario::Verdict::Holds => (PropertyKind::Always, Verdict::Exhaustive),
@@ -234,8 +256,10 @@ fn scenario_properties(report: &scenario::Report) -> Vec<PropertyReport> {
 }
 
 fn scenario_traces(report: &scenario::Report) -> Vec<RunTrace> {
-    let breach = report.breach.iter().filter_map(|breach| Some((breach.clause.to_string(), breach.trace.as_ref()?)));
-    let violated = report.properties.iter().filter(|property| property.verdict == scenario::Verdict::Violated);
+    let breach =
+        report.breach.iter().filter_map(|breach| Some((breach.clause.to_string(), breach.trace.as_ref()?)));
+    let violated =
+        report.properties.iter().filter(|property| property.verdict == scenario::Verdict::Violated);
     let properties = violated.filter_map(|property| Some((property.name.clone(), property.trace.as_ref()?)));
     breach
         .chain(properties)

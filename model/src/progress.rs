@@ -55,7 +55,12 @@ impl Progress {
 
     /// States expanded, successors generated, replica states judged, greatest depth.
     pub fn counts(&self) -> (u64, u64, u64, usize) {
-        (self.expanded.load(Relaxed), self.generated.load(Relaxed), self.judged.load(Relaxed), self.depth.load(Relaxed))
+        (
+            self.expanded.load(Relaxed),
+            self.generated.load(Relaxed),
+            self.judged.load(Relaxed),
+            self.depth.load(Relaxed),
+        )
     }
 
     /// The run's limits.

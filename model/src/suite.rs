@@ -1,7 +1,7 @@
 //! The suites: which runs `dsr check` makes by default, with `--deep`, and of a graph that it is given.
 
-use crate::checked::{Act, Checked};
 use crate::checked::alphabet::{ATTRIBUTE, Alphabet};
+use crate::checked::{Act, Checked};
 use crate::focus::{self, FocusError};
 use crate::histories::{Bound, HistoryRun};
 use crate::job::{Job, ReductionRun};
@@ -72,11 +72,11 @@ impl Subject<'_> {
         ];
         for pair in pairs() {
             // Additions multiply: a whole focus of them is for `--deep`.
-            let adds = pair.contains(&K::AddVertex);
-            let run = if adds { self.at_last(3, twice, &pair, true)? } else { self.histories(3, twice, &pair, true)? };
-            runs.push(run);
+            let is_large = pair.contains(&K::AddVertex) || pair == [K::UpdateAttributes, K::MoveEdge];
+            let run = if is_large { Self::at_last } else { Self::histories };
+            runs.push(run(self, 3, twice, &pair, true)?);
         }
-        for pair in pairs() {
+        for pair in pairs().filter(|pair| !LARGE_PAIRS.contains(pair)) {
             runs.push(self.at_last(2, Bound { replicas: 3, mutations: 2 }, &pair, true)?);
         }
         Ok(runs)
@@ -84,16 +84,32 @@ impl Subject<'_> {
 
     /// The runs of L2: all six kinds, and four concrete mutations twice each. `[spec: CHECK-6]`
     pub fn schedules(&self) -> Result<Vec<Box<dyn Job>>, FocusError> {
-        let once = ScheduleBound { replicas: 2, readers: 0, mutations: 1, restarts: 1, resynchronisations: 1 };
+        let once =
+            ScheduleBound { replicas: 2, readers: 0, mutations: 1, restarts: 1, resynchronisations: 1 };
         let twice = ScheduleBound { mutations: 2, ..once };
-        let all = self.histories(SCHEDULE_FOCUS, Bound { replicas: 2, mutations: 1 }, &MutationKind::ALL, true)?;
+        let all =
+            self.histories(SCHEDULE_FOCUS, Bound { replicas: 2, mutations: 1 }, &MutationKind::ALL, true)?;
         let (focus, everything) = (all.focus, all.semantics);
         let four = Arc::new(Restricted { mutations: four_mutations(&everything), whole: everything.clone() });
         let reader = ScheduleBound { readers: 1, ..once };
         Ok(vec![
-            Box::new(ScheduleRun { name: "2 × 1, all six".into(), semantics: everything.clone(), focus, bound: once }),
-            Box::new(ScheduleRun { name: "2 × 2, four mutations".into(), semantics: four.clone(), focus, bound: twice }),
-            Box::new(ReductionRun { name: "2 × 1 and a reader, all six".into(), semantics: everything, bound: reader }),
+            Box::new(ScheduleRun {
+                name: "2 × 1, all six".into(),
+                semantics: everything.clone(),
+                focus,
+                bound: once,
+            }),
+            Box::new(ScheduleRun {
+                name: "2 × 2, four mutations".into(),
+                semantics: four.clone(),
+                focus,
+                bound: twice,
+            }),
+            Box::new(ReductionRun {
+                name: "2 × 1 and a reader, all six".into(),
+                semantics: everything,
+                bound: reader,
+            }),
             Box::new(ReductionRun { name: "2 × 2, four mutations".into(), semantics: four, bound: twice }),
         ])
     }
@@ -101,11 +117,15 @@ impl Subject<'_> {
     /// The runs of `--deep`, smallest first. `[spec: CHECK-3]`
     pub fn deep_histories(&self) -> Result<Vec<HistoryRun<Checked>>, FocusError> {
         let twice = Bound { replicas: 2, mutations: 2 };
-        let mut runs = vec![
+        let mut runs = Vec::new();
+        for pair in LARGE_PAIRS {
+            runs.push(self.at_last(2, Bound { replicas: 3, mutations: 2 }, &pair, true)?);
+        }
+        runs.extend([
             self.histories(2, twice, &K::ALL, false)?,
             self.at_last(3, twice, &K::ALL, false)?,
             self.at_last(2, Bound { replicas: 3, mutations: 2 }, &K::ALL, false)?,
-        ];
+        ]);
         for other in [K::AddEdge, K::UpdateAttributes, K::RemoveEdge, K::MoveEdge, K::RemoveVertex] {
             runs.push(self.histories(3, twice, &[K::AddVertex, other], false)?);
         }
@@ -138,6 +158,10 @@ fn four_mutations(semantics: &Checked) -> Vec<Act> {
     let moves = mutations.iter().filter(is_kinematic).take(2);
     moves.chain(last(K::UpdateAttributes)).chain(last(K::RemoveVertex)).cloned().collect()
 }
+
+/// The pairs that take more than a quarter of a minute each at 3 × 2: they are for `--deep`.
+const LARGE_PAIRS: [[MutationKind; 2]; 3] =
+    [[K::AddVertex, K::UpdateAttributes], [K::AddVertex, K::MoveEdge], [K::UpdateAttributes, K::MoveEdge]];
 
 /// Every pair of different kinds.
 pub fn pairs() -> impl Iterator<Item = [MutationKind; 2]> {

@@ -148,7 +148,12 @@ impl<S: Semantics> Tables<S> {
     }
 
     /// What replica `replica` can do in a state; each step is judged when it is first computed.
-    pub fn moves(&mut self, semantics: &S, state: StateId, replica: usize) -> Result<Arc<[Move]>, StepFault<S>> {
+    pub fn moves(
+        &mut self,
+        semantics: &S,
+        state: StateId,
+        replica: usize,
+    ) -> Result<Arc<[Move]>, StepFault<S>> {
         if let Some(moves) = self.moves.get(&(state, replica)) {
             return Ok(moves.clone());
         }
@@ -179,7 +184,13 @@ impl<S: Semantics> Tables<S> {
     }
 
     /// A state with its replicas renamed by the permutation `to`, whose number is `permutation`.
-    pub fn rename_state(&mut self, semantics: &S, state: StateId, permutation: usize, to: &[usize]) -> StateId {
+    pub fn rename_state(
+        &mut self,
+        semantics: &S,
+        state: StateId,
+        permutation: usize,
+        to: &[usize],
+    ) -> StateId {
         if permutation == 0 || state == NONE {
             return state;
         }
@@ -192,7 +203,13 @@ impl<S: Semantics> Tables<S> {
     }
 
     /// A delta with its replicas renamed.
-    pub fn rename_delta(&mut self, semantics: &S, delta: DeltaId, permutation: usize, to: &[usize]) -> DeltaId {
+    pub fn rename_delta(
+        &mut self,
+        semantics: &S,
+        delta: DeltaId,
+        permutation: usize,
+        to: &[usize],
+    ) -> DeltaId {
         if permutation == 0 || delta == NONE {
             return delta;
         }

@@ -149,7 +149,14 @@ impl<'h, S: Semantics> TraceWriter<'h, S> {
         self.push_mutation(choice.replica, mutation, choice.delta, choice.before, after);
     }
 
-    fn push_mutation(&mut self, replica: usize, mutation: &S::Mutation, delta: DeltaId, before: StateId, after: StateId) {
+    fn push_mutation(
+        &mut self,
+        replica: usize,
+        mutation: &S::Mutation,
+        delta: DeltaId,
+        before: StateId,
+        after: StateId,
+    ) {
         self.messages.push(delta);
         let tables = self.histories.tables();
         let act = Act::Mutate {
@@ -176,8 +183,11 @@ impl<'h, S: Semantics> TraceWriter<'h, S> {
         let mut orders: Vec<usize> = (0..1 << self.messages.len()).collect();
         orders.sort_by_key(|mask| mask.count_ones());
         for mask in orders {
-            let order: Vec<usize> = (0..self.messages.len()).filter(|message| mask >> message & 1 == 1).collect();
-            let end = order.iter().fold(start, |state, &message| self.histories.join(state, self.messages[message]));
+            let order: Vec<usize> =
+                (0..self.messages.len()).filter(|message| mask >> message & 1 == 1).collect();
+            let end = order
+                .iter()
+                .fold(start, |state, &message| self.histories.join(state, self.messages[message]));
             if end == target {
                 for message in order {
                     self.deliver(replica_name(replica), replica, message);
@@ -192,7 +202,11 @@ impl<'h, S: Semantics> TraceWriter<'h, S> {
         let after = self.histories.join(before, self.messages[message]);
         let tables = self.histories.tables();
         let changes = self.semantics.changes(&tables.state(before), &tables.state(after));
-        self.steps.push(TraceStep { replica: name, act: Act::Deliver { message: format!("m{}", message + 1) }, changes });
+        self.steps.push(TraceStep {
+            replica: name,
+            act: Act::Deliver { message: format!("m{}", message + 1) },
+            changes,
+        });
         self.states[replica] = after;
     }
 

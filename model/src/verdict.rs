@@ -225,6 +225,9 @@ mod tests {
         assert_eq!(Verdict::of(Evidence { expanded: 6, ..SOUND }), Verdict::Bounded);
         assert_eq!(Verdict::of(Evidence { cut: true, ..SOUND }), Verdict::Bounded);
         assert_eq!(Verdict::of(Evidence { unique: 0, expanded: 0, ..SOUND }), Verdict::Bounded);
-        assert_eq!(Verdict::of(Evidence { violated: true, cut: true, unseen: 3, ..SOUND }), Verdict::Violated);
+        assert_eq!(
+            Verdict::of(Evidence { violated: true, cut: true, unseen: 3, ..SOUND }),
+            Verdict::Violated
+        );
     }
 }

@@ -19,7 +19,8 @@ fn tiny() -> (State, Dictionary) {
 
 fn run_of(focus: usize, replicas: usize, mutations: usize, kinds: &[MutationKind]) -> HistoryRun<Checked> {
     let (state, dictionary) = tiny();
-    let subject = Subject { state: &state, dictionary: &dictionary, names: &["kitchen", "robot", "table", "cup"] };
+    let subject =
+        Subject { state: &state, dictionary: &dictionary, names: &["kitchen", "robot", "table", "cup"] };
     subject.histories(focus, Bound { replicas, mutations }, kinds, true).unwrap()
 }
 
@@ -124,7 +125,9 @@ fn law_a_run_that_never_sees_its_kinds_is_vacuous() {
 fn law_every_repair_is_witnessed() {
     let report = checked(&run_of(3, 3, 1, &MutationKind::ALL), Limits::default());
     let seen: BTreeSet<&str> = report.properties.iter().map(|property| property.clause.as_str()).collect();
-    for repair in ["same-key", "functional", "rt-parent", "cycle-broken", "detached", "reattached", "name-clash"] {
+    for repair in
+        ["same-key", "functional", "rt-parent", "cycle-broken", "detached", "reattached", "name-clash"]
+    {
         assert!(seen.contains(format!("repair: {repair}").as_str()), "{repair} was never seen");
     }
     assert_eq!(report.verdict, Verdict::Exhaustive, "{:?}", report.notes);

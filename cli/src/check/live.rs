@@ -39,7 +39,12 @@ fn take<'j>(next: &AtomicUsize, jobs: &'j [Box<dyn Job>]) -> Option<(usize, &'j 
     jobs.get(at).map(|job| (at, job))
 }
 
-fn run_one(job: &dyn Job, limits: Limits, screen: Option<&MultiProgress>, (at, of): (usize, usize)) -> RunReport {
+fn run_one(
+    job: &dyn Job,
+    limits: Limits,
+    screen: Option<&MultiProgress>,
+    (at, of): (usize, usize),
+) -> RunReport {
     let progress = Arc::new(Progress::new(limits));
     let title = format!("[{at}/{of}] {} {}", job.layer(), job.name());
     let over = AtomicBool::new(false);
@@ -49,7 +54,8 @@ fn run_one(job: &dyn Job, limits: Limits, screen: Option<&MultiProgress>, (at, o
         over.store(true, Relaxed);
         report
     });
-    let line = format!("{title}: {} · {} states · {:.1} s", report.verdict, report.states.unique, report.seconds);
+    let line =
+        format!("{title}: {} · {} states · {:.1} s", report.verdict, report.states.unique, report.seconds);
     match screen {
         Some(screen) => drop(screen.println(line)),
         None => err(line),
@@ -60,7 +66,8 @@ fn run_one(job: &dyn Job, limits: Limits, screen: Option<&MultiProgress>, (at, o
 /// Says now and then how far a run is, until it is over.
 fn watch(title: &str, progress: &Progress, over: &AtomicBool, screen: Option<&MultiProgress>) {
     let bar = screen.map(|screen| {
-        let style = ProgressStyle::with_template("{spinner} {wide_msg}").unwrap_or_else(|_| ProgressStyle::default_spinner());
+        let style = ProgressStyle::with_template("{spinner} {wide_msg}")
+            .unwrap_or_else(|_| ProgressStyle::default_spinner());
         screen.add(ProgressBar::new_spinner().with_style(style))
     });
     let mut mentioned = 0;
@@ -91,7 +98,9 @@ fn state_of(progress: &Progress) -> String {
     #[expect(clippy::cast_precision_loss, reason = "a rate to look at")]
     let rate = unique as f64 / seconds;
     let memory = memory_mb().map_or(String::new(), |mb| format!(" · {mb} MB"));
-    format!("{unique} unique of {generated} · {judged} judged · depth {depth} · {rate:.0}/s · {seconds:.0} s{memory}")
+    format!(
+        "{unique} unique of {generated} · {judged} judged · depth {depth} · {rate:.0}/s · {seconds:.0} s{memory}"
+    )
 }
 
 /// Resident memory of the process, where the system tells it.

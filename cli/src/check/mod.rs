@@ -158,7 +158,9 @@ fn write_traces(runs: &mut [RunReport], directory: &Path) -> Result<(), String> 
             let file = directory.join(format!("{number:02}-{}.trace.json", trace.clause));
             let text = serde_json::to_string_pretty(&trace.json).unwrap_or_default();
             let written = std::fs::create_dir_all(directory).and_then(|()| std::fs::write(&file, text));
-            written.map_err(|error| format!("cannot write {}: {error}; name another directory with --traces", file.display()))?;
+            written.map_err(|error| {
+                format!("cannot write {}: {error}; name another directory with --traces", file.display())
+            })?;
             for property in run.properties.iter_mut().filter(|property| property.clause == trace.clause) {
                 property.trace = Some(file.display().to_string());
             }

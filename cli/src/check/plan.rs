@@ -41,7 +41,8 @@ fn suite(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
         }
     }
     if wanted(Layer::L0) {
-        let semantics = subject.histories(FOCUS_DEFAULT, Bound { replicas: 2, mutations: 1 }, &MutationKind::ALL, true);
+        let semantics =
+            subject.histories(FOCUS_DEFAULT, Bound { replicas: 2, mutations: 1 }, &MutationKind::ALL, true);
         let semantics = semantics.map_err(|error| error.to_string())?.semantics;
         let records = if arguments.deep { vec![5] } else { vec![4, 3] };
         for records in records {
@@ -65,20 +66,21 @@ fn of_file(arguments: &Arguments, file: &str) -> Result<Box<dyn Job>, String> {
         return Ok(Box::new(ScenarioRun { scenario }));
     }
     let explain = |error: InputError| format!("{file}: {error}: {}", error.remedy());
-    let dictionary = input::dictionary(&arguments.dictionary).map_err(|error| {
-        format!("--dictionary {}: {error}: {}", arguments.dictionary, error.remedy())
-    })?;
+    let dictionary = input::dictionary(&arguments.dictionary)
+        .map_err(|error| format!("--dictionary {}: {error}: {}", arguments.dictionary, error.remedy()))?;
     let scene = match input::load(file, &dictionary, Strictness::Strict) {
         Ok(loaded) => loaded.scene,
         Err(InputError::Refused(refused)) => {
             let faults = refused.faults.iter().map(|fault| format!("{file}: {fault}"));
-            let lines: Vec<String> = faults.chain([format!("{file}: refused; see `dsr scene check {file}`")]).collect();
+            let lines: Vec<String> =
+                faults.chain([format!("{file}: refused; see `dsr scene check {file}`")]).collect();
             return Err(lines.join("\n"));
         }
         Err(error) => return Err(explain(error)),
     };
     let graph = dsr_core::view(&scene.state, &dictionary);
-    let first = graph.vertices().iter().filter_map(|&vertex| graph.vertex(vertex)).map(|vertex| &*vertex.name);
+    let first =
+        graph.vertices().iter().filter_map(|&vertex| graph.vertex(vertex)).map(|vertex| &*vertex.name);
     let names: Vec<&str> = if arguments.focus.is_empty() {
         first.take(FOCUS_DEFAULT).collect()
     } else {
@@ -89,7 +91,8 @@ fn of_file(arguments: &Arguments, file: &str) -> Result<Box<dyn Job>, String> {
     let mut kinds: Vec<MutationKind> = arguments.alphabet.iter().flat_map(|kinds| kinds.0.clone()).collect();
     kinds.sort_unstable();
     kinds.dedup();
-    let mut run = subject.histories(names.len(), bound, &kinds, true).map_err(|error| format!("{file}: {error}"))?;
+    let mut run =
+        subject.histories(names.len(), bound, &kinds, true).map_err(|error| format!("{file}: {error}"))?;
     run.name = format!("{file} [{}]: {}", names.join(", "), run.name);
     Ok(Box::new(run))
 }

@@ -34,24 +34,30 @@ pub(super) fn text(runs: &[RunReport], verdict: Verdict, seconds: f64) -> String
 
 fn add_runs(text: &mut String, runs: &[RunReport]) {
     let width = runs.iter().map(|run| run.name.chars().count()).max().unwrap_or(0).max(4);
-    add(text, format_args!(
-        "{:<8} {:<width$} {:>5} {:>4} {:>10} {:>11} {:>11} {:>7}  verdict\n",
-        "layer", "run", "focus", "ops", "unique", "generated", "judged", "s"
-    ));
+    add(
+        text,
+        format_args!(
+            "{:<8} {:<width$} {:>5} {:>4} {:>10} {:>11} {:>11} {:>7}  verdict\n",
+            "layer", "run", "focus", "ops", "unique", "generated", "judged", "s"
+        ),
+    );
     for run in runs {
-        add(text, format_args!(
-            "{:<8} {:<width$} {:>5} {:>4} {:>10} {:>11} {:>11} {:>7.1}  {}{}\n",
-            run.layer,
-            run.name,
-            or_dash(run.focus),
-            or_dash(run.operations),
-            run.states.unique,
-            run.states.generated,
-            run.states.judged,
-            run.seconds,
-            run.verdict,
-            if run.second_engine.is_some() { ", both engines" } else { "" },
-        ));
+        add(
+            text,
+            format_args!(
+                "{:<8} {:<width$} {:>5} {:>4} {:>10} {:>11} {:>11} {:>7.1}  {}{}\n",
+                run.layer,
+                run.name,
+                or_dash(run.focus),
+                or_dash(run.operations),
+                run.states.unique,
+                run.states.generated,
+                run.states.judged,
+                run.seconds,
+                run.verdict,
+                if run.second_engine.is_some() { ", both engines" } else { "" },
+            ),
+        );
         let remarkable = run.verdict != Verdict::Exhaustive;
         for note in run.notes.iter().filter(|_| remarkable) {
             add(text, format_args!("{:<8} {note}\n", ""));
@@ -100,7 +106,13 @@ fn add_clauses(text: &mut String, runs: &[RunReport]) {
             line.trace = line.trace.or(property.trace.as_deref());
         }
     }
-    add(text, format_args!("\n{:<6} {:<22} {:<11} {:>4} {:>12}  what must always hold\n", "claim", "clause", "verdict", "runs", "states"));
+    add(
+        text,
+        format_args!(
+            "\n{:<6} {:<22} {:<11} {:>4} {:>12}  what must always hold\n",
+            "claim", "clause", "verdict", "runs", "states"
+        ),
+    );
     let mut last = "";
     for ((group, clause), line) in clauses {
         if group != last {
@@ -108,10 +120,17 @@ fn add_clauses(text: &mut String, runs: &[RunReport]) {
             last = group;
         }
         let claim = if line.claim.is_empty() { "-" } else { line.claim };
-        add(text, format_args!(
-            "{claim:<6} {clause:<22} {:<11} {:>4} {:>12}  {} ({})\n",
-            line.verdict, line.runs, line.judged, line.what, line.layers.join(", ")
-        ));
+        add(
+            text,
+            format_args!(
+                "{claim:<6} {clause:<22} {:<11} {:>4} {:>12}  {} ({})\n",
+                line.verdict,
+                line.runs,
+                line.judged,
+                line.what,
+                line.layers.join(", ")
+            ),
+        );
         if let Some(trace) = line.trace {
             add(text, format_args!("{:<6} counterexample: {trace}\n", ""));
         }
@@ -136,7 +155,13 @@ fn add_witnesses(text: &mut String, runs: &[RunReport]) {
 fn add_traces(text: &mut String, runs: &[RunReport]) {
     for run in runs {
         for trace in &run.traces {
-            add(text, format_args!("\n{} {}: a shortest way to break {}\n{}\n", run.layer, run.name, trace.clause, trace.text));
+            add(
+                text,
+                format_args!(
+                    "\n{} {}: a shortest way to break {}\n{}\n",
+                    run.layer, run.name, trace.clause, trace.text
+                ),
+            );
         }
     }
 }
@@ -146,8 +171,19 @@ fn add_box(text: &mut String, runs: &[RunReport], verdict: Verdict, seconds: f64
     let judged: u64 = runs.iter().map(|run| run.states.judged).sum();
     let collision: f64 = runs.iter().map(|run| run.collision_bound).sum();
     add(text, format_args!("\n── verdict: {verdict} ──────────────────────────────────────────────\n"));
-    add(text, format_args!("{} runs, {unique} states, {judged} replica states judged, {seconds:.1} s\n", runs.len()));
-    add(text, format_args!("a fingerprint collision may have hidden a state with a chance of at most {collision:.1e}\n"));
+    add(
+        text,
+        format_args!(
+            "{} runs, {unique} states, {judged} replica states judged, {seconds:.1} s\n",
+            runs.len()
+        ),
+    );
+    add(
+        text,
+        format_args!(
+            "a fingerprint collision may have hidden a state with a chance of at most {collision:.1e}\n"
+        ),
+    );
     add(text, "assumed:\n");
     for line in ASSUMED {
         add(text, format_args!("  · {line}\n"));

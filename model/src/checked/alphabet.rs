@@ -3,7 +3,8 @@
 use super::renaming::fresh_name;
 use super::replica_id;
 use dsr_core::{
-    AttributeMap, Edge, EdgeKey, ElementId, Mutation, MutationKind, NewVertex, Placement, RT, ReplicaId, Value, VertexId, VertexLink, View,
+    AttributeMap, Edge, EdgeKey, ElementId, Mutation, MutationKind, NewVertex, Placement, RT, ReplicaId,
+    Value, VertexId, VertexLink, View,
 };
 use std::collections::BTreeSet;
 
@@ -82,7 +83,8 @@ impl Alphabet {
         let symbolic = self.edges_in_focus(view).filter(|shown| !shown.edge.is_rt() && !self.at_last);
         let edges = symbolic.map(|shown| ElementId::Edge(shown.id));
         for target in vertices.chain(edges) {
-            let update = |value| Mutation::UpdateAttributes { target, updates: [(ATTRIBUTE.into(), value)].into() };
+            let update =
+                |value| Mutation::UpdateAttributes { target, updates: [(ATTRIBUTE.into(), value)].into() };
             mutations.push(update(Some(Value::Int(1))));
             if !self.at_last && view.attribute(target, ATTRIBUTE).is_some() {
                 mutations.push(update(None));
@@ -91,7 +93,8 @@ impl Alphabet {
     }
 
     fn remove_edge(&self, view: &View<'_>, mutations: &mut Vec<Mutation>) {
-        mutations.extend(self.edges_in_focus(view).map(|shown| Mutation::RemoveEdge { key: shown.edge.key() }));
+        mutations
+            .extend(self.edges_in_focus(view).map(|shown| Mutation::RemoveEdge { key: shown.edge.key() }));
     }
 
     /// Kinematic edges to other parents, symbolic ones to other targets.
@@ -107,7 +110,11 @@ impl Alphabet {
                 }
                 let symbolic_to_root = to.to.is_root();
                 if to != from && !symbolic_to_root {
-                    mutations.push(Mutation::MoveEdge { from: from.clone(), to, attributes: AttributeMap::new() });
+                    mutations.push(Mutation::MoveEdge {
+                        from: from.clone(),
+                        to,
+                        attributes: AttributeMap::new(),
+                    });
                 }
             }
         }

@@ -4,7 +4,8 @@
 use super::Checked;
 use crate::semantics::{Breach, Step};
 use dsr_core::{
-    Dot, Edge, EdgeId, EdgeKey, Mutation, Placement, RT, Record, Repair, Rule, Run, State, VertexId, View, invariant, view,
+    Dot, Edge, EdgeId, EdgeKey, Mutation, Placement, RT, Record, Repair, Rule, Run, State, VertexId, View,
+    invariant, view,
 };
 
 /// The effect of a mutation is shown by its author at once; the delta brings the author to its own state,
@@ -72,7 +73,8 @@ fn check_fresh(before: &State, delta: &State) -> Result<(), Breach> {
 fn check_effect(after: &View<'_>, mutation: &Mutation, delta: &State) -> Result<(), Breach> {
     let shown = match mutation {
         Mutation::AddVertex { vertex, .. } => {
-            let new = delta.records().find(|(dot, _)| delta.vertex(*dot).is_some()).map(|(dot, _)| VertexId(dot));
+            let new =
+                delta.records().find(|(dot, _)| delta.vertex(*dot).is_some()).map(|(dot, _)| VertexId(dot));
             after.vertex_by_name(&vertex.name) == new && new.is_some() && shows_new_edges(after, delta)
         }
         Mutation::AddEdge { .. } => shows_new_edges(after, delta),
@@ -116,9 +118,10 @@ pub(super) fn check_hidden_are_outranked(view: &View<'_>) -> Result<(), Breach> 
             _ => {}
         }
     }
-    let hidden = view.repairs().iter().filter(|repair| {
-        matches!(repair, Repair::Superseded { .. } | Repair::CycleBroken { .. })
-    });
+    let hidden = view
+        .repairs()
+        .iter()
+        .filter(|repair| matches!(repair, Repair::Superseded { .. } | Repair::CycleBroken { .. }));
     let visible = view.state().records().filter(|(_, record)| match record {
         Record::Edge(edge) => view.has_vertex(edge.from) && view.has_vertex(edge.to),
         _ => false,
@@ -149,7 +152,8 @@ fn check_superseded(view: &View<'_>, hidden: EdgeId, shown: EdgeId, rule: Rule) 
 
 fn check_cycle(view: &View<'_>, hidden: EdgeId) -> Result<(), Breach> {
     let state = view.state();
-    let fault = |what| Err(Breach::new("INTENT-2", format_args!("{hidden} is hidden as a cycle, but {what}")));
+    let fault =
+        |what| Err(Breach::new("INTENT-2", format_args!("{hidden} is hidden as a cycle, but {what}")));
     let Some(Edge { from, to, .. }) = state.edge(hidden.0) else {
         return fault("is not held");
     };
@@ -186,7 +190,8 @@ pub(super) fn changes(before: &View<'_>, after: &View<'_>) -> Vec<String> {
         });
         let edges = view.edges().iter().map(|shown| format!("edge {} {}", shown.id, shown.edge.key()));
         let writes = view.writes().iter().map(|(dot, write)| {
-            let target = if write.target == VertexId::ROOT.0 { "root".into() } else { write.target.to_string() };
+            let target =
+                if write.target == VertexId::ROOT.0 { "root".into() } else { write.target.to_string() };
             format!("attribute {target}.{} = {} ({dot})", write.name, write.value)
         });
         let repairs = view.repairs().iter().map(|repair| format!("repair: {repair}"));

@@ -11,8 +11,8 @@ use crate::semantics::{Breach, Judged, Semantics, Step, Witnesses};
 use alphabet::Alphabet;
 use dsr_core::invariant::{Violation, check_repairs, check_view};
 use dsr_core::{
-    Author, Delta, Dictionary, Mutation, MutationKind, Repair, ReplicaId, Rule, State, View, check_well_formed,
-    delta_for, digest, view,
+    Author, Delta, Dictionary, Mutation, MutationKind, Repair, ReplicaId, Rule, State, View,
+    check_well_formed, delta_for, digest, view,
 };
 use std::fmt;
 
@@ -38,7 +38,9 @@ impl fmt::Display for Act {
             Mutation::AddVertex { vertex, link } if link.outgoing => {
                 write!(f, " {:?} -{}-> {}", vertex.name, link.label, link.other)
             }
-            Mutation::AddVertex { vertex, link } => write!(f, " {} -{}-> {:?}", link.other, link.label, vertex.name),
+            Mutation::AddVertex { vertex, link } => {
+                write!(f, " {} -{}-> {:?}", link.other, link.label, vertex.name)
+            }
             Mutation::AddEdge { key, .. } | Mutation::RemoveEdge { key } => write!(f, " {key}"),
             Mutation::MoveEdge { from, to, .. } => write!(f, " {from} to {to}"),
             Mutation::RemoveVertex { vertex } => write!(f, " {vertex}"),
@@ -137,7 +139,9 @@ fn witnesses_of(view: &View<'_>) -> Witnesses {
 }
 
 fn has_concurrent_writes(view: &View<'_>) -> bool {
-    view.writes().windows(2).any(|pair| pair[0].1.target == pair[1].1.target && pair[0].1.name == pair[1].1.name)
+    view.writes()
+        .windows(2)
+        .any(|pair| pair[0].1.target == pair[1].1.target && pair[0].1.name == pair[1].1.name)
 }
 
 /// A view without repairs and without two live writes of one attribute does not depend on the order of
@@ -201,7 +205,13 @@ impl Semantics for Checked {
         Ok(Judged { witnesses: witnesses_of(&view), order_sensitive: is_order_sensitive(&view) })
     }
 
-    fn judge_step(&self, before: &State, _replica: usize, mutation: &Act, step: &Step<Self>) -> Result<(), Breach> {
+    fn judge_step(
+        &self,
+        before: &State,
+        _replica: usize,
+        mutation: &Act,
+        step: &Step<Self>,
+    ) -> Result<(), Breach> {
         intent::check_step(&view(before, &self.dictionary), &mutation.0, step)
     }
 

@@ -23,7 +23,8 @@ pub(super) fn rename(state: &State, to: &[usize]) -> State {
 fn rename_record(dot: Dot, record: &Record, dot_of: &impl Fn(Dot) -> Dot) -> Record {
     match record {
         Record::Vertex(vertex) => {
-            let name = if *vertex.name == *fresh_name(dot) { fresh_name(dot_of(dot)) } else { vertex.name.clone() };
+            let name =
+                if *vertex.name == *fresh_name(dot) { fresh_name(dot_of(dot)) } else { vertex.name.clone() };
             Record::Vertex(Vertex { name, ..vertex.clone() })
         }
         Record::Edge(edge) => {

@@ -39,6 +39,12 @@ impl Fault {
     }
 }
 
+/// A set without one of its deltas, and that delta.
+fn without(set: &[DeltaId], at: usize) -> (Vec<DeltaId>, DeltaId) {
+    let rest = set[..at].iter().chain(&set[at + 1..]).copied();
+    (rest.collect(), set[at])
+}
+
 impl<S: Semantics> Histories<S> {
     /// Sets and diamonds judged so far.
     pub fn judged(&self) -> (u64, u64) {
@@ -69,9 +75,8 @@ impl<S: Semantics> Histories<S> {
     /// The state of a set, the same by every last delivery.
     fn join_all(&mut self, set: &[DeltaId], images: bool) -> Result<(S::State, StateId), Fault> {
         let mut known: Option<(S::State, StateId, Vec<DeltaId>)> = None;
-        for (at, &last) in set.iter().enumerate() {
-            let mut rest = set.to_vec();
-            rest.remove(at);
+        for at in 0..set.len() {
+            let (mut rest, last) = without(set, at);
             let before = self.state_of(&rest, images)?;
             let state = self.tables.state(before);
             let joined = self.semantics.join(&state, &self.tables.delta(last));
@@ -143,8 +148,7 @@ impl<S: Semantics> Histories<S> {
     fn judge_repair(&mut self, state: StateId, set: &[DeltaId], images: bool) -> Result<(), Fault> {
         let whole = self.tables.state(state);
         for at in 0..set.len() {
-            let mut rest = set.to_vec();
-            rest.remove(at);
+            let (rest, _) = without(set, at);
             let part = self.state_of(&rest, images)?;
             let part = self.tables.state(part);
             for (ours, theirs) in [(&whole, &part), (&part, &whole)] {
@@ -184,7 +188,8 @@ impl<S: Semantics> Histories<S> {
         (0..self.bound.replicas).any(|replica| {
             let last = history.last[replica];
             // A faulty step is a fault, not an end: the search is about to meet it.
-            last != NONE && self.tables.moves(&self.semantics, last, replica).map_or(true, |moves| !moves.is_empty())
+            last != NONE
+                && self.tables.moves(&self.semantics, last, replica).map_or(true, |moves| !moves.is_empty())
         })
     }
 }

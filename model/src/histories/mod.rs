@@ -124,7 +124,11 @@ impl<S: Semantics> Histories<S> {
         if self.bound.mutations > 0 {
             last[..self.bound.replicas].fill(self.initial);
         }
-        History { deltas: [[NONE; MUTATIONS_MAX]; REPLICAS_MAX], last, concrete: self.permutations.len() == 1 }
+        History {
+            deltas: [[NONE; MUTATIONS_MAX]; REPLICAS_MAX],
+            last,
+            concrete: self.permutations.len() == 1,
+        }
     }
 
     /// The state that every replica starts from.
@@ -169,7 +173,11 @@ impl<S: Semantics> Histories<S> {
     }
 
     /// Every history one mutation longer.
-    pub fn successors(&mut self, history: &History, out: &mut Vec<(Choice, History)>) -> Result<(), StepFault<S>> {
+    pub fn successors(
+        &mut self,
+        history: &History,
+        out: &mut Vec<(Choice, History)>,
+    ) -> Result<(), StepFault<S>> {
         for replica in 0..self.bound.replicas {
             if history.last[replica] == NONE {
                 continue;

@@ -51,7 +51,10 @@ impl<S: Semantics> HistoryModel<S> {
     /// The model of a bound; it counts into `progress` and stops when that says so.
     pub fn new(semantics: Arc<S>, bound: Bound, symmetry: bool, progress: Arc<Progress>) -> Self {
         let histories = Histories::new(semantics, bound, symmetry);
-        Self { inner: Mutex::new(Inner { histories, fault: None, cut: false, generated: 0, expanded: 0 }), progress }
+        Self {
+            inner: Mutex::new(Inner { histories, fault: None, cut: false, generated: 0, expanded: 0 }),
+            progress,
+        }
     }
 
     fn inner(&self) -> MutexGuard<'_, Inner<S>> {
@@ -93,7 +96,12 @@ impl<S: Semantics + 'static> Model for HistoryModel<S> {
         match inner.histories.successors(history, actions) {
             Ok(()) => {
                 inner.generated += actions.len() as u64;
-                self.progress.note(inner.expanded, inner.generated, inner.histories.judged().0, history.depth());
+                self.progress.note(
+                    inner.expanded,
+                    inner.generated,
+                    inner.histories.judged().0,
+                    history.depth(),
+                );
             }
             Err(fault) => {
                 inner.fault = Some(FoundFault::Step(fault));

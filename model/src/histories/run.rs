@@ -47,7 +47,9 @@ impl<S: Semantics + 'static> HistoryRun<S> {
         let model = HistoryModel::new(self.semantics.clone(), self.bound, self.symmetry, progress.clone());
         let checker = model.checker().threads(1).spawn_dfs().join();
         let (expanded, generated, cut) = checker.model().counts();
-        let mut outcome = checker.model().inspect(|histories, fault| self.outcome(histories, fault.map(|f| f.breach().clone())));
+        let mut outcome = checker
+            .model()
+            .inspect(|histories, fault| self.outcome(histories, fault.map(|f| f.breach().clone())));
         outcome.counts.unique = checker.unique_state_count() as u64;
         outcome.counts.generated = generated;
         outcome.expanded = expanded;
@@ -55,7 +57,11 @@ impl<S: Semantics + 'static> HistoryRun<S> {
         if self.second_engine && !cut && outcome.breach.is_none() {
             outcome.second = checker.model().inspect(|histories, _| {
                 let counts = engine::count(histories, u64::MAX)?;
-                Some(StateCounts { unique: counts.unique, generated: counts.generated, ..StateCounts::default() })
+                Some(StateCounts {
+                    unique: counts.unique,
+                    generated: counts.generated,
+                    ..StateCounts::default()
+                })
             });
         }
         // The tables are large: let them go before a counterexample is sought.
@@ -75,19 +81,30 @@ impl<S: Semantics + 'static> HistoryRun<S> {
         let expected = self.semantics.kinds_in_use();
         let done = histories.kinds_done();
         let concurrent: Vec<(usize, usize)> = histories.concurrent().collect();
-        let mut seen: Vec<(String, bool)> =
-            expected.iter().map(|&kind| (format!("{} is done", kinds[kind]), done >> kind & 1 == 1)).collect();
+        let mut seen: Vec<(String, bool)> = expected
+            .iter()
+            .map(|&kind| (format!("{} is done", kinds[kind]), done >> kind & 1 == 1))
+            .collect();
         if self.bound.replicas > 1 {
             for (at, &left) in expected.iter().enumerate() {
                 for &right in &expected[at..] {
                     let pair = (left.min(right), left.max(right));
-                    seen.push((format!("{} beside {}", kinds[pair.0], kinds[pair.1]), concurrent.contains(&pair)));
+                    seen.push((
+                        format!("{} beside {}", kinds[pair.0], kinds[pair.1]),
+                        concurrent.contains(&pair),
+                    ));
                 }
             }
         }
         let names = self.semantics.witnesses();
         let bits = histories.tables().witnesses;
-        seen.extend(names.iter().enumerate().filter(|(bit, _)| bits.has(*bit)).map(|(_, name)| ((*name).into(), true)));
+        seen.extend(
+            names
+                .iter()
+                .enumerate()
+                .filter(|(bit, _)| bits.has(*bit))
+                .map(|(_, name)| ((*name).into(), true)),
+        );
         seen
     }
 
@@ -104,7 +121,11 @@ impl<S: Semantics + 'static> HistoryRun<S> {
             breach = breach.or(Some(Breach::new("CHECK-9", detail)));
         }
         if outcome.cut {
-            notes.push(format!("stopped after {} histories and {:.0} s, before its end", outcome.expanded, progress.seconds()));
+            notes.push(format!(
+                "stopped after {} histories and {:.0} s, before its end",
+                outcome.expanded,
+                progress.seconds()
+            ));
         }
         let evidence = Evidence {
             violated: breach.is_some(),
@@ -113,7 +134,8 @@ impl<S: Semantics + 'static> HistoryRun<S> {
             expanded: outcome.expanded,
             unseen: outcome.seen.iter().filter(|(_, seen)| !seen).count(),
         };
-        let traces: Vec<RunTrace> = breach.iter().filter_map(|_| self.counterexample()).map(RunTrace::from).collect();
+        let traces: Vec<RunTrace> =
+            breach.iter().filter_map(|_| self.counterexample()).map(RunTrace::from).collect();
         if let Some(breach) = &breach {
             notes.push(format!("[{}] {}", breach.clause, breach.detail));
         }
@@ -133,7 +155,12 @@ impl<S: Semantics + 'static> HistoryRun<S> {
         }
     }
 
-    fn properties(&self, evidence: Evidence, breach: Option<&Breach>, seen: &[(String, bool)]) -> Vec<PropertyReport> {
+    fn properties(
+        &self,
+        evidence: Evidence,
+        breach: Option<&Breach>,
+        seen: &[(String, bool)],
+    ) -> Vec<PropertyReport> {
         let complete = evidence.complete() && breach.is_none();
         let always = self.semantics.clauses().into_iter().map(|clause| {
             let violated = breach.is_some_and(|breach| breach.clause == clause.id);

@@ -59,7 +59,8 @@ impl<S: Semantics> Histories<S> {
         for (replica, &target) in to.iter().enumerate() {
             for made in 0..MUTATIONS_MAX {
                 let delta = history.deltas[replica][made];
-                image.deltas[target][made] = self.tables.rename_delta(&self.semantics, delta, permutation, &to);
+                image.deltas[target][made] =
+                    self.tables.rename_delta(&self.semantics, delta, permutation, &to);
             }
             let last = history.last[replica];
             image.last[target] = self.tables.rename_state(&self.semantics, last, permutation, &to);
@@ -78,7 +79,8 @@ impl<S: Semantics> Histories<S> {
         let mut least = delta_set(set.iter().copied());
         for permutation in 1..self.permutations.len() {
             let to = self.permutations.get(permutation).to_vec();
-            let image = set.iter().map(|&delta| self.tables.rename_delta(&self.semantics, delta, permutation, &to));
+            let image =
+                set.iter().map(|&delta| self.tables.rename_delta(&self.semantics, delta, permutation, &to));
             least = least.min(delta_set(image));
         }
         least
