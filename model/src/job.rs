@@ -124,7 +124,7 @@ impl<S: Algebra> Job for AlgebraRun<S> {
         let states = report.states as u64;
         run.states =
             StateCounts { unique: states, generated: report.instances(), judged: states, diamonds: 0 };
-        run.properties = report.laws.iter().map(|law| law_report(law)).collect();
+        run.properties = report.laws.iter().map(law_report).collect();
         run.verdict = worst(&run.properties);
         run.notes.push(format!(
             "{} families, {} instances of {} laws",

@@ -77,7 +77,7 @@ impl Progress {
     pub fn must_stop(&self) -> bool {
         let expanded = self.expanded.load(Relaxed);
         // The clock is read now and then only.
-        let late = expanded % 256 == 0 && self.seconds() >= self.limits.seconds_max;
+        let late = expanded.is_multiple_of(256) && self.seconds() >= self.limits.seconds_max;
         if late || expanded >= self.limits.states_max {
             self.stop();
         }

@@ -154,7 +154,7 @@ fn four_mutations(semantics: &Checked) -> Vec<Act> {
     let enabled = |mutation: &Act| semantics.mutate(&initial, 0, mutation).is_some();
     let mutations: Vec<Act> = semantics.mutations(&initial, 0).into_iter().filter(enabled).collect();
     let is_kinematic = |act: &&Act| matches!(&act.0, Mutation::MoveEdge { to, .. } if &*to.label == RT);
-    let last = |kind: MutationKind| mutations.iter().filter(move |act| act.0.kind() == kind).next_back();
+    let last = |kind: MutationKind| mutations.iter().rfind(move |act| act.0.kind() == kind);
     let moves = mutations.iter().filter(is_kinematic).take(2);
     moves.chain(last(K::UpdateAttributes)).chain(last(K::RemoveVertex)).cloned().collect()
 }

@@ -1,5 +1,7 @@
 //! L1: its reductions are exact, its engines agree, and its wrapper cannot be talked into a pass.
 
+#![expect(clippy::unwrap_used, reason = "helpers of tests: what they unwrap is what they test")]
+
 use dsr_core::scene::{Scene, Strictness, TINY};
 use dsr_core::{Dictionary, MutationKind, State};
 use dsr_model::checked::Checked;

@@ -15,15 +15,15 @@ const REDRAW: Duration = Duration::from_millis(200);
 const MENTION_SECONDS: u64 = 15;
 
 /// Runs all jobs, `at_once` at a time; reports in the order of the jobs.
-pub(super) fn run_all(jobs: Vec<Box<dyn Job>>, limits: Limits, at_once: usize) -> Vec<RunReport> {
+pub(super) fn run_all(jobs: &[Box<dyn Job>], limits: Limits, at_once: usize) -> Vec<RunReport> {
     let screen = std::io::stderr().is_terminal().then(MultiProgress::new);
     let next = AtomicUsize::new(0);
     let done: Mutex<Vec<(usize, RunReport)>> = Mutex::new(Vec::new());
     std::thread::scope(|scope| {
         for _ in 0..at_once.min(jobs.len()) {
             scope.spawn(|| {
-                while let Some((at, job)) = take(&next, &jobs) {
-                    let report = run_one(&**job, limits, screen.as_ref(), (at + 1, jobs.len()));
+                while let Some((at, job)) = take(&next, jobs) {
+                    let report = run_one(job, limits, screen.as_ref(), (at + 1, jobs.len()));
                     done.lock().unwrap_or_else(PoisonError::into_inner).push((at, report));
                 }
             });
@@ -34,9 +34,9 @@ pub(super) fn run_all(jobs: Vec<Box<dyn Job>>, limits: Limits, at_once: usize) -
     reports.into_iter().map(|(_, report)| report).collect()
 }
 
-fn take<'j>(next: &AtomicUsize, jobs: &'j [Box<dyn Job>]) -> Option<(usize, &'j Box<dyn Job>)> {
+fn take<'j>(next: &AtomicUsize, jobs: &'j [Box<dyn Job>]) -> Option<(usize, &'j dyn Job)> {
     let at = next.fetch_add(1, Relaxed);
-    jobs.get(at).map(|job| (at, job))
+    jobs.get(at).map(|job| (at, &**job))
 }
 
 fn run_one(

@@ -127,7 +127,7 @@ impl Arguments {
         };
         let limits = Limits { states_max: self.states_max, seconds_max: self.seconds_max };
         let started = std::time::Instant::now();
-        let mut runs = live::run_all(jobs, limits, usize::from(self.jobs));
+        let mut runs = live::run_all(&jobs, limits, usize::from(self.jobs));
         let traces = write_traces(&mut runs, &self.traces);
         let verdict = runs.iter().map(|run| run.verdict).max().unwrap_or(Verdict::Vacuous);
         match self.format {

@@ -148,7 +148,7 @@ fn add_witnesses(text: &mut String, runs: &[RunReport]) {
     }
     add(text, "\nseen (runs that saw it / runs that had to or did)\n");
     for (witness, (saw, asked)) in seen {
-        add(text, format_args!("  {:<58} {saw}/{asked}\n", witness));
+        add(text, format_args!("  {witness:<58} {saw}/{asked}\n"));
     }
 }
 

@@ -22,6 +22,7 @@ pub use run::{Finding, LayerReport, run_alarm, run_sound};
 pub use shown::Shown;
 pub use subject::{A, B, subject};
 
+use dsr_core::{MutationKind, VertexId};
 use std::sync::Arc;
 
 /// A core broken on purpose.
@@ -34,6 +35,13 @@ pub struct Alarm {
     /// The clause that it offends, at its root. What a layer reports may be a consequence.
     pub clause: &'static str,
     flaw: Arc<dyn Flaw>,
+}
+
+impl Alarm {
+    /// The broken core with some kinds of mutation on some vertices of [`subject`].
+    pub fn core(&self, kinds: &[MutationKind], focus: &[VertexId]) -> Broken {
+        Broken::new(self.name, subject(kinds, focus), self.flaw.clone())
+    }
 }
 
 fn alarm(name: &'static str, clause: &'static str, broken: &'static str, flaw: impl Flaw + 'static) -> Alarm {

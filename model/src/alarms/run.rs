@@ -50,7 +50,7 @@ const PAIR_STATES_MAX: u64 = 100_000;
 
 /// Tries every layer, the cheapest first; with `all_layers` also those after the first that finds it.
 pub fn run_alarm(alarm: &Alarm, all_layers: bool) -> Vec<LayerReport> {
-    layers(&|kinds, focus| Broken::new(alarm.name, subject(kinds, focus), alarm.flaw.clone()), all_layers)
+    layers(&|kinds, focus| alarm.core(kinds, focus), all_layers)
 }
 
 /// The sound core through the same layers and bounds: nothing may be found.

@@ -37,7 +37,7 @@ pub(super) fn shape_of(state: &State) -> Option<Shape> {
             Record::Vertex(vertex) => {
                 // Only whether names are equal matters; a fresh name is its dot's and equal to no other.
                 let is_fresh = vertex.name.starts_with('@');
-                shape.push(if is_fresh { 0 } else { 1 });
+                shape.push(u8::from(!is_fresh));
                 push_text(&mut shape, if is_fresh { "" } else { &vertex.name });
             }
             Record::Edge(edge) => {
