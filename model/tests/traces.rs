@@ -1,5 +1,11 @@
 //! Counterexamples of L1 as traces: they can be read back, and replayed to the states that they show.
 
+#![expect(
+    clippy::expect_used,
+    clippy::panic,
+    reason = "helpers of tests: what they expect is what they test"
+)]
+
 use dsr_core::{Delta, MutationKind, State};
 use dsr_model::alarms::{self, A, B, Broken};
 use dsr_model::histories::{Bound, HistoryRun};
