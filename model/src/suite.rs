@@ -7,6 +7,7 @@ use crate::histories::{Bound, HistoryRun};
 use crate::job::{Job, ReductionRun};
 use crate::schedules::{Restricted, ScheduleBound, ScheduleRun};
 use crate::semantics::Semantics;
+use crate::verdict::RunReport;
 use dsr_core::{Dictionary, Mutation, MutationKind, MutationKind as K, RT, State};
 use std::sync::Arc;
 
@@ -162,6 +163,28 @@ fn four_mutations(semantics: &Checked) -> Vec<Act> {
 /// The pairs that take more than a quarter of a minute each at 3 × 2: they are for `--deep`.
 const LARGE_PAIRS: [[MutationKind; 2]; 3] =
     [[K::AddVertex, K::UpdateAttributes], [K::AddVertex, K::MoveEdge], [K::UpdateAttributes, K::MoveEdge]];
+
+/// What the runs of L1 must have seen together, whatever each of them is about: every repair that replicas
+/// with one dictionary can come to, and every odd state that a network makes. `[spec: CHECK-10]`
+const SEEN_TOGETHER: [&str; 10] = [
+    "repair: same-key",
+    "repair: functional",
+    "repair: rt-parent",
+    "repair: cycle-broken",
+    "repair: detached",
+    "repair: reattached",
+    "repair: name-clash",
+    "two live writes of one attribute",
+    "a pending record",
+    "a gap in a context",
+];
+
+/// What a suite had to see and did not.
+pub fn unseen(runs: &[RunReport]) -> Vec<&'static str> {
+    let properties = || runs.iter().filter(|run| run.layer == "L1").flat_map(|run| &run.properties);
+    let seen = |witness: &str| properties().any(|property| property.clause == witness);
+    SEEN_TOGETHER.into_iter().filter(|witness| !seen(witness)).collect()
+}
 
 /// Every pair of different kinds.
 pub fn pairs() -> impl Iterator<Item = [MutationKind; 2]> {

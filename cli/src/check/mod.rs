@@ -8,6 +8,7 @@ use crate::output::{err, out};
 use crate::status::Status;
 use dsr_core::MutationKind;
 use dsr_model::progress::Limits;
+use dsr_model::suite;
 use dsr_model::verdict::{RunReport, Verdict};
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -92,6 +93,9 @@ pub(crate) enum Layer {
     Scenario,
 }
 
+/// The layers in the order of reports.
+const LAYERS: [&str; 5] = ["L0", "L1", "L1 = L2", "L2", "scenario"];
+
 /// How a result is printed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
 pub(crate) enum Format {
@@ -128,8 +132,14 @@ impl Arguments {
         let limits = Limits { states_max: self.states_max, seconds_max: self.seconds_max };
         let started = std::time::Instant::now();
         let mut runs = live::run_all(&jobs, limits, usize::from(self.jobs));
+        runs.sort_by_key(|run| LAYERS.iter().position(|layer| *layer == run.layer));
         let traces = write_traces(&mut runs, &self.traces);
-        let verdict = runs.iter().map(|run| run.verdict).max().unwrap_or(Verdict::Vacuous);
+        let worst = runs.iter().map(|run| run.verdict).max().unwrap_or(Verdict::Vacuous);
+        let unseen = if self.is_whole_suite() { suite::unseen(&runs) } else { Vec::new() };
+        let verdict = if unseen.is_empty() { worst } else { worst.max(Verdict::Vacuous) };
+        for witness in unseen {
+            err(format!("no run of L1 has seen {witness:?}: the suite proves less than it says"));
+        }
         match self.format {
             Format::Json => {
                 let text = serde_json::to_string_pretty(&json!({ "verdict": verdict, "runs": runs }));
@@ -146,6 +156,13 @@ impl Arguments {
             (_, Verdict::Violated) => Status::Violated,
             _ => Status::Incomplete,
         }
+    }
+}
+
+impl Arguments {
+    /// Whether what the runs see together can be asked for.
+    fn is_whole_suite(&self) -> bool {
+        self.files.is_empty() && !self.deep && (self.layer.is_empty() || self.layer.contains(&Layer::L1))
     }
 }
 

@@ -58,7 +58,7 @@ fn suite(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
     Ok(jobs)
 }
 
-/// A scenario says so by its `format`; everything else is a scene.
+/// A scenario has replicas; everything else is a scene.
 fn of_file(arguments: &Arguments, file: &str) -> Result<Box<dyn Job>, String> {
     let is_embedded = file.starts_with('@');
     if !is_embedded && is_scenario(file) {
@@ -98,8 +98,10 @@ fn of_file(arguments: &Arguments, file: &str) -> Result<Box<dyn Job>, String> {
 }
 
 fn is_scenario(file: &str) -> bool {
-    const HEAD_BYTES: usize = 4096;
-    let Ok(text) = std::fs::read(file) else { return false };
-    let head = String::from_utf8_lossy(&text[..text.len().min(HEAD_BYTES)]).into_owned();
-    head.contains("dsr-scenario")
+    let Ok(text) = std::fs::read_to_string(file) else { return false };
+    match serde_json::from_str::<serde_json::Value>(&text) {
+        Ok(json) => json.get("replicas").is_some() || json.get("format").is_some(),
+        // Whoever reads it will say where it is broken.
+        Err(_) => text.contains("\"replicas\""),
+    }
 }

@@ -1,0 +1,99 @@
+//! `dsr check`: exit statuses, the JSON that scripts read, and what wrong usage is told.
+
+#![expect(
+    clippy::expect_used,
+    clippy::panic,
+    reason = "helpers of tests: what they expect is what they test"
+)]
+
+use serde_json::Value;
+use std::process::{Command, Output};
+
+/// What `dsr` does with some arguments, in an empty directory.
+fn dsr(arguments: &[&str]) -> Output {
+    let directory = std::env::temp_dir().join(format!("dsr-check-{}", std::process::id()));
+    std::fs::create_dir_all(&directory).expect("a directory for traces");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_dsr"));
+    command.args(arguments).current_dir(directory).output().expect("the program runs")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+#[track_caller]
+fn refused(arguments: &[&str], says: &[&str]) {
+    let output = dsr(arguments);
+    let errors = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{errors}");
+    for part in says {
+        assert!(errors.contains(part), "{part:?} is not in: {errors}");
+    }
+}
+
+#[test]
+fn a_scene_is_checked_exhaustively() {
+    let output = dsr(&["check", "@tiny", "--focus", "robot,cup", "--format", "json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(report["verdict"], "exhaustive");
+    let run = &report["runs"][0];
+    for key in ["name", "layer", "semantics", "replicas", "mutations", "states", "seconds", "properties"] {
+        assert!(!run[key].is_null(), "{key} is missing");
+    }
+    assert_eq!((run["replicas"].as_u64(), run["mutations"].as_u64()), (Some(2), Some(1)));
+    assert!(run["states"]["unique"].as_u64() > Some(10) && run["states"]["generated"].as_u64() > Some(10));
+    let properties = run["properties"].as_array().expect("a list");
+    let kinds: Vec<&str> = properties.iter().filter_map(|property| property["kind"].as_str()).collect();
+    assert!(kinds.contains(&"always") && kinds.contains(&"sometimes"));
+    assert!(
+        properties.iter().all(|property| property["verdict"] == "exhaustive" && property["trace"].is_null())
+    );
+}
+
+#[test]
+fn a_scenario_is_explored() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../model/data/scenarios/two-parents.json");
+    let output = dsr(&["check", file]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("verdict: exhaustive"));
+}
+
+#[test]
+fn a_run_that_is_cut_short_is_incomplete() {
+    let output = dsr(&["check", "@tiny", "--mutations", "2", "--states-max", "20"]);
+    assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("before its end"));
+}
+
+#[test]
+fn a_false_property_is_violated_with_a_trace() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../model/data/scenarios/two-parents.json");
+    let scenario = std::fs::read_to_string(file).expect("a shipped scenario");
+    let mut scenario: Value = serde_json::from_str(&scenario).expect("JSON");
+    let wrong = serde_json::json!({ "name": "no table", "why": "a false claim", "always": { "not": { "vertex": { "name": "dining_table" } } } });
+    scenario["properties"].as_array_mut().expect("a list").push(wrong);
+    let path = std::env::temp_dir().join(format!("dsr-false-{}.json", std::process::id()));
+    std::fs::write(&path, scenario.to_string()).expect("a scenario of our own");
+    let output = dsr(&["check", &path.display().to_string(), "--format", "json"]);
+    let report: Value =
+        serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{}", text(&output.stderr)));
+    assert_eq!(output.status.code(), Some(1), "{report}");
+    assert_eq!(report["verdict"], "violated");
+    let properties = report["runs"][0]["properties"].as_array().expect("a list");
+    let broken = properties.iter().find(|property| property["clause"] == "no table").expect("the property");
+    assert_eq!(broken["verdict"], "violated");
+    assert!(broken["trace"].as_str().is_some_and(|trace| trace.ends_with(".trace.json")));
+}
+
+#[test]
+fn wrong_usage_and_input_say_what_to_do() {
+    refused(&["check", "no-such-file.json"], &["no-such-file.json", "check the path"]);
+    refused(&["check", "@tiny", "--focus", "robto"], &["robto", "robot"]);
+    refused(&["check", "@tiny", "--focus", "robot,robot"], &["twice"]);
+    refused(&["check", "@tiny", "--alphabet", "fly"], &["add_vertex", "remove_vertex"]);
+    refused(&["check", "@tiny", "--replicas", "9"], &["--replicas"]);
+    refused(&["check", "--focus", "robot"], &["@flat"]);
+    refused(&["check", "@nowhere"], &["@flat or @tiny"]);
+    refused(&["check", "--layer", "L9"], &["l0, l1, l2, scenario"]);
+}
