@@ -6,9 +6,9 @@ use crate::status::Status;
 use dsr_model::alarms;
 
 const ABOUT: &str = "\
-A checker that finds nothing is believed only if it would have found something. Each alarm is the production core
-with one flaw; the layers are tried in turn at growing bounds. The core without a flaw goes through the same layers,
-and nothing may be found there.";
+A checker that finds nothing is believed only if it would have found something. Each alarm is the production core with \
+one flaw; the layers are tried in turn at growing bounds. The core without a flaw goes through the same layers, and \
+nothing may be found there.";
 
 const STATUS: &str = "\
 Exit status: 0 every flaw was found and nothing else, 1 a flaw was missed or the sound core was accused,

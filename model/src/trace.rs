@@ -41,7 +41,6 @@ pub struct TraceStep {
     /// Who.
     pub replica: String,
     /// What.
-    #[serde(flatten)]
     pub act: Act,
     /// What changed in the replica's view, a line each.
     pub changes: Vec<String>,
@@ -49,7 +48,7 @@ pub struct TraceStep {
 
 /// What a replica does.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
-#[serde(tag = "act", rename_all = "snake_case")]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Act {
     /// Mutates and broadcasts.
     Mutate {

@@ -8,7 +8,7 @@ use dsr_model::checked::Checked;
 use dsr_model::engine;
 use dsr_model::histories::{Bound, Histories, History, HistoryRun};
 use dsr_model::progress::{Limits, Progress};
-use dsr_model::suite::Subject;
+use dsr_model::suite::{self, Subject};
 use dsr_model::verdict::{PropertyKind, RunReport, Verdict};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -133,4 +133,15 @@ fn law_every_repair_is_witnessed() {
         assert!(seen.contains(format!("repair: {repair}").as_str()), "{repair} was never seen");
     }
     assert_eq!(report.verdict, Verdict::Exhaustive, "{:?}", report.notes);
+}
+
+/// A suite that has not seen a repair says so. `[spec: CHECK-10]`
+#[test]
+fn law_a_suite_tells_what_it_has_not_seen() {
+    let narrow = checked(&run_of(2, 2, 1, &[MutationKind::UpdateAttributes]), Limits::default());
+    assert_eq!(narrow.verdict, Verdict::Exhaustive);
+    let unseen = suite::unseen(&[narrow]);
+    assert!(unseen.contains(&"repair: detached") && !unseen.contains(&"two live writes of one attribute"));
+    let wide = checked(&run_of(3, 3, 1, &MutationKind::ALL), Limits::default());
+    assert_eq!(suite::unseen(&[wide]), ["a gap in a context"; 0]);
 }

@@ -14,11 +14,11 @@ use serde_json::json;
 use std::path::{Path, PathBuf};
 
 const ABOUT: &str = "\
-Without FILE, checks the checked semantics on the embedded flat: the algebra of states (L0), histories of
-concurrent mutations (L1), schedules of a lossy network (L2) and every shipped scenario.
+Without FILE, checks the checked semantics on the embedded flat: the algebra of states (L0), histories of concurrent \
+mutations (L1), schedules of a lossy network (L2) and every shipped scenario.
 
-With FILE, a scene is checked by L1 on some of its vertices, and a scenario is explored in all its
-interleavings and deliveries.";
+With FILE, a scene is checked by L1 on some of its vertices, and a scenario is explored in all its interleavings and \
+deliveries.";
 
 const EXAMPLES: &str = "\
 Examples:

@@ -28,8 +28,8 @@ pub const REPLICAS_MAX: usize = 4;
 /// The most mutations of one replica.
 pub const MUTATIONS_MAX: usize = 4;
 
-/// Duplicates and resynchronisation are judged in every set of at most this many deltas: the digest's own
-/// counterexample needs three, which the runs with three deltas and L2 reach.
+/// Duplicates and resynchronisation are judged in every set of at most this many deltas; of larger sets L0 and
+/// L2 judge them.
 const REPLAY_MAX: usize = 2;
 
 /// How far a run goes.
