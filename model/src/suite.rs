@@ -130,14 +130,14 @@ impl Subject<'_> {
         for other in [K::AddEdge, K::UpdateAttributes, K::RemoveEdge, K::MoveEdge, K::RemoveVertex] {
             runs.push(self.histories(3, twice, &[K::AddVertex, other], false)?);
         }
+        for (replicas, mutations) in [(2, 3), (4, 2), (3, 3)] {
+            for pair in pairs() {
+                runs.push(self.at_last(2, Bound { replicas, mutations }, &pair, false)?);
+            }
+        }
         for (replicas, mutations) in [(2, 3), (3, 2)] {
             for pair in pairs() {
                 runs.push(self.histories(2, Bound { replicas, mutations }, &pair, false)?);
-            }
-        }
-        for (replicas, mutations) in [(3, 3), (4, 2)] {
-            for pair in pairs() {
-                runs.push(self.at_last(2, Bound { replicas, mutations }, &pair, false)?);
             }
         }
         runs.push(self.histories(3, twice, &K::ALL, false)?);
