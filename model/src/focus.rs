@@ -102,7 +102,11 @@ fn way_to_root(graph: &View<'_>, vertex: VertexId) -> Vec<VertexId> {
 fn unknown(name: &str, graph: &View<'_>) -> FocusError {
     const SHOWN_MAX: usize = 40;
     let names =
-        graph.vertices().iter().filter_map(|&vertex| graph.vertex(vertex).map(|vertex| &*vertex.name));
-    let known: Vec<&str> = names.take(SHOWN_MAX).collect();
-    FocusError::UnknownName { name: name.into(), known: known.join(", ") }
+        || graph.vertices().iter().filter_map(|&vertex| graph.vertex(vertex).map(|vertex| &*vertex.name));
+    let mut known = names().take(SHOWN_MAX).collect::<Vec<_>>().join(", ");
+    let more = names().count().saturating_sub(SHOWN_MAX);
+    if more > 0 {
+        known.push_str(&format!(" and {more} more"));
+    }
+    FocusError::UnknownName { name: name.into(), known }
 }
