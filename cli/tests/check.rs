@@ -1,10 +1,6 @@
 //! `dsr check`: exit statuses, the JSON that scripts read, and what wrong usage is told.
 
-#![expect(
-    clippy::expect_used,
-    clippy::panic,
-    reason = "helpers of tests: what they expect is what they test"
-)]
+#![expect(clippy::expect_used, reason = "helpers of tests: what they expect is what they test")]
 
 use serde_json::Value;
 use std::process::{Command, Output};

@@ -103,10 +103,8 @@ fn unknown(name: &str, graph: &View<'_>) -> FocusError {
     const SHOWN_MAX: usize = 40;
     let names =
         || graph.vertices().iter().filter_map(|&vertex| graph.vertex(vertex).map(|vertex| &*vertex.name));
-    let mut known = names().take(SHOWN_MAX).collect::<Vec<_>>().join(", ");
+    let shown = names().take(SHOWN_MAX).collect::<Vec<_>>().join(", ");
     let more = names().count().saturating_sub(SHOWN_MAX);
-    if more > 0 {
-        known.push_str(&format!(" and {more} more"));
-    }
+    let known = if more > 0 { format!("{shown} and {more} more") } else { shown };
     FocusError::UnknownName { name: name.into(), known }
 }
