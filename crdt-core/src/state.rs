@@ -116,7 +116,8 @@ impl State {
 
     /// Seen but not held: removed or superseded, for ever. The root never is. `[spec: STATE-3]`
     pub fn is_dead(&self, dot: Dot) -> bool {
-        self.context.contains(dot) && !self.holds(dot)
+        // In this order: most that is asked for is held.
+        !self.holds(dot) && self.context.contains(dot)
     }
 
     /// The rank of the claim held under `dot`: the greater of two competing claims wins. `[spec: STAMP-2]`

@@ -19,7 +19,7 @@ pub trait Job: Send + Sync {
     fn run(&self, progress: &Arc<Progress>) -> RunReport;
 }
 
-impl<S: Semantics + 'static> Job for HistoryRun<S> {
+impl<S: Semantics> Job for HistoryRun<S> {
     fn name(&self) -> String {
         self.name.clone()
     }
@@ -33,7 +33,7 @@ impl<S: Semantics + 'static> Job for HistoryRun<S> {
     }
 }
 
-impl<S: Semantics + 'static> Job for ScheduleRun<S> {
+impl<S: Semantics> Job for ScheduleRun<S> {
     fn name(&self) -> String {
         self.name.clone()
     }
@@ -58,7 +58,7 @@ pub struct ReductionRun<S> {
     pub bound: ScheduleBound,
 }
 
-impl<S: Semantics + 'static> Job for ReductionRun<S> {
+impl<S: Semantics> Job for ReductionRun<S> {
     fn name(&self) -> String {
         self.name.clone()
     }
@@ -80,7 +80,7 @@ impl<S: Semantics + 'static> Job for ReductionRun<S> {
                     unique: reduction.schedules as u64,
                     generated: reduction.histories as u64,
                     judged: reduction.states as u64,
-                    diamonds: 0,
+                    ..StateCounts::default()
                 };
                 run.notes.push(format!(
                     "{} pools in both; {} states of schedules among {} delivered subsets, {} of them read",
@@ -122,8 +122,12 @@ impl<S: Algebra> Job for AlgebraRun<S> {
         let mut run = RunReport::new(self.name(), self.layer(), self.semantics.name(), progress.seconds());
         run.mutations = self.records;
         let states = report.states as u64;
-        run.states =
-            StateCounts { unique: states, generated: report.instances(), judged: states, diamonds: 0 };
+        run.states = StateCounts {
+            unique: states,
+            generated: report.instances(),
+            judged: states,
+            ..StateCounts::default()
+        };
         run.properties = report.laws.iter().map(law_report).collect();
         run.verdict = worst(&run.properties);
         run.notes.push(format!(
@@ -201,6 +205,7 @@ impl Job for ScenarioRun {
             generated: report.generated,
             judged: report.states,
             diamonds: report.deliveries,
+            ..StateCounts::default()
         };
         run.properties = scenario_properties(&report);
         let evidence = Evidence {

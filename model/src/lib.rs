@@ -3,13 +3,13 @@
 pub mod alarms;
 pub mod algebra;
 pub mod checked;
-pub mod engine;
 pub mod focus;
 pub mod histories;
 pub mod job;
 pub mod progress;
 pub mod scenario;
 pub mod schedules;
+pub mod search;
 pub mod semantics;
 pub mod suite;
 pub mod tables;

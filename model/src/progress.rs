@@ -10,7 +10,9 @@ pub struct Progress {
     expanded: AtomicU64,
     generated: AtomicU64,
     judged: AtomicU64,
+    recounted: AtomicU64,
     depth: AtomicUsize,
+    witnessed: AtomicUsize,
     stop: AtomicBool,
     started: Instant,
     limits: Limits,
@@ -38,7 +40,9 @@ impl Progress {
             expanded: AtomicU64::new(0),
             generated: AtomicU64::new(0),
             judged: AtomicU64::new(0),
+            recounted: AtomicU64::new(0),
             depth: AtomicUsize::new(0),
+            witnessed: AtomicUsize::new(0),
             stop: AtomicBool::new(false),
             started: Instant::now(),
             limits,
@@ -46,11 +50,21 @@ impl Progress {
     }
 
     /// Records how far the run is.
-    pub fn note(&self, expanded: u64, generated: u64, judged: u64, depth: usize) {
+    pub fn note(&self, expanded: u64, generated: u64, depth: usize) {
         self.expanded.store(expanded, Relaxed);
         self.generated.store(generated, Relaxed);
-        self.judged.store(judged, Relaxed);
         self.depth.fetch_max(depth, Relaxed);
+    }
+
+    /// Records how many replica states were judged, and how many different things they bear witness of.
+    pub fn note_seen(&self, judged: u64, witnessed: usize) {
+        self.judged.store(judged, Relaxed);
+        self.witnessed.store(witnessed, Relaxed);
+    }
+
+    /// How many different things were witnessed.
+    pub fn witnessed(&self) -> usize {
+        self.witnessed.load(Relaxed)
     }
 
     /// States expanded, successors generated, replica states judged, greatest depth.
@@ -82,6 +96,20 @@ impl Progress {
             self.stop();
         }
         self.stop.load(Relaxed)
+    }
+
+    /// Whether the run must stop while it counts once more what it has explored.
+    pub fn must_stop_recount(&self, counted: u64) -> bool {
+        self.recounted.store(counted, Relaxed);
+        if counted.is_multiple_of(256) && self.seconds() >= self.limits.seconds_max {
+            self.stop();
+        }
+        self.stop.load(Relaxed)
+    }
+
+    /// States counted once more by the second engine.
+    pub fn recounted(&self) -> u64 {
+        self.recounted.load(Relaxed)
     }
 
     /// Seconds since the run began.

@@ -7,13 +7,11 @@ use std::fmt::{Debug, Display};
 use std::hash::Hash;
 
 /// A semantics of replicas that mutate locally and exchange deltas.
-pub trait Semantics: Send + Sync {
+pub trait Semantics: Debug + Send + Sync + 'static {
     /// A replica's state. Equality must be that of canonical bytes.
     type State: Clone + Eq + Hash + Ord + Debug + Send + Sync;
     /// What one mutation broadcasts.
     type Delta: Clone + Eq + Hash + Ord + Debug + Send + Sync;
-    /// What the verdict on a state can depend on; `()` where every state is judged by itself.
-    type Shape: Eq + Hash + Debug + Send;
     /// A concrete mutation.
     type Mutation: Clone + Eq + Ord + Hash + Debug + Display + Send + Sync;
 
@@ -30,8 +28,35 @@ pub trait Semantics: Send + Sync {
     /// What a mutation broadcasts and leaves behind, or `None` when it is refused.
     fn mutate(&self, state: &Self::State, replica: usize, mutation: &Self::Mutation) -> Option<Step<Self>>;
 
+    /// Every enabled mutation with its step, in the order of [`mutations`](Self::mutations).
+    fn steps(&self, state: &Self::State, replica: usize) -> Vec<(Self::Mutation, Step<Self>)> {
+        let mutations = self.mutations(state, replica).into_iter();
+        mutations
+            .filter_map(|mutation| {
+                let step = self.mutate(state, replica, &mutation)?;
+                Some((mutation, step))
+            })
+            .collect()
+    }
+
+    /// A mutation that broadcasts this delta in a state.
+    fn mutation_of(
+        &self,
+        state: &Self::State,
+        replica: usize,
+        delta: &Self::Delta,
+    ) -> Option<Self::Mutation> {
+        let steps = self.steps(state, replica).into_iter();
+        steps.filter(|(_, step)| step.delta == *delta).map(|(mutation, _)| mutation).next()
+    }
+
     /// The state after a delta is delivered. `[spec: JOIN-3]`
     fn join(&self, state: &Self::State, delta: &Self::Delta) -> Self::State;
+
+    /// The state after several deliveries, in order.
+    fn join_all(&self, state: &Self::State, deltas: &[&Self::Delta]) -> Self::State {
+        deltas.iter().fold(state.clone(), |state, delta| self.join(&state, delta))
+    }
 
     /// What `theirs` gets when it resynchronises with `ours`, or `None` if there is no such means.
     /// `[spec: SYNC-3]`
@@ -40,23 +65,45 @@ pub trait Semantics: Send + Sync {
     /// The join of two whole states, as the order of the semilattice defines it; `None` if there is none.
     fn join_states(&self, left: &Self::State, right: &Self::State) -> Option<Self::State>;
 
-    /// States of one shape have one verdict by [`judge`](Self::judge), so it is asked once for all of them.
-    /// `None`, the default, makes every state its own.
-    fn shape(&self, state: &Self::State) -> Option<Self::Shape> {
-        let _ = state;
+    /// A delta's stamp, if it makes claims. `[spec: CHECK-11]`
+    ///
+    /// The default keeps every delta as it is, so nothing is judged for another.
+    fn stamp(&self, delta: &Self::Delta) -> Option<u64> {
+        let _ = delta;
         None
     }
 
-    /// Judges what the shape leaves out, in every state.
-    fn judge_each(&self, state: &Self::State) -> Result<Witnesses, Breach> {
+    /// The same delta with another stamp.
+    fn restamped(&self, delta: &Self::Delta, stamp: u64) -> Self::Delta {
+        let _ = stamp;
+        delta.clone()
+    }
+
+    /// The stamp of the next delta with claims, whoever makes it in `state`.
+    fn next_stamp(&self, state: &Self::State) -> u64 {
         let _ = state;
-        Ok(Witnesses::default())
+        0
+    }
+
+    /// When what is shown can depend on which of two deltas has the greater stamp; it is asked of deltas out
+    /// of time. `[spec: CHECK-11]`
+    fn compete(&self, left: &Self::Delta, right: &Self::Delta) -> Competition {
+        let _ = (left, right);
+        Competition::Always
+    }
+
+    /// A digest of all that is shown of a state but stamps: equal where [`compete`](Self::compete) says that
+    /// nothing else can differ.
+    fn appearance(&self, state: &Self::State) -> u64 {
+        let _ = state;
+        0
     }
 
     /// Judges one state by itself: every clause that must always hold of it.
     fn judge(&self, state: &Self::State) -> Result<Judged, Breach>;
 
-    /// Judges a local step: what must hold between a state, a mutation and the state after it.
+    /// Judges a local step: what must hold between a state, a mutation and the state after it. In states
+    /// that look alike it is asked once.
     fn judge_step(
         &self,
         before: &Self::State,
@@ -151,6 +198,17 @@ const CLAUSES: [Clause; 21] = [
     clause("MUT-4.2", "V2", "no mutation strands a vertex that its author sees"),
 ];
 
+/// When what is shown can depend on which of two deltas has the greater stamp.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Competition {
+    /// Never.
+    Never,
+    /// In states whose judgement says that they are [entangled](Judged::entangled).
+    Entangled,
+    /// In every state.
+    Always,
+}
+
 /// What judging a sound state brings to light.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Judged {
@@ -158,6 +216,10 @@ pub struct Judged {
     pub witnesses: Witnesses,
     /// See [`Semantics::is_order_sensitive`].
     pub order_sensitive: bool,
+    /// Whether claims on different registers decide about each other. This must be the same in all sets of
+    /// deltas in which those that [always](Competition::Always) compete compare alike; and no such state may
+    /// be without order-sensitivity.
+    pub entangled: bool,
 }
 
 /// What a mutation broadcasts and leaves behind.
@@ -198,6 +260,11 @@ impl Witnesses {
     /// Adds the witnesses of `other`.
     pub const fn insert(&mut self, other: Self) {
         self.0 |= other.0;
+    }
+
+    /// How many.
+    pub const fn count(self) -> usize {
+        self.0.count_ones() as usize
     }
 
     /// Whether bit `at` was seen.

@@ -32,7 +32,6 @@ impl Subject<'_> {
         focus: usize,
         bound: Bound,
         kinds: &[MutationKind],
-        second_engine: bool,
     ) -> Result<HistoryRun<Checked>, FocusError> {
         let names = &self.names[..focus.min(self.names.len())];
         let cut = focus::cut(self.state, self.dictionary, names, ATTRIBUTE)?;
@@ -44,7 +43,7 @@ impl Subject<'_> {
             focus: names.len(),
             bound,
             symmetry: true,
-            second_engine,
+            second_engine: true,
         })
     }
 
@@ -54,9 +53,8 @@ impl Subject<'_> {
         focus: usize,
         bound: Bound,
         kinds: &[MutationKind],
-        second_engine: bool,
     ) -> Result<HistoryRun<Checked>, FocusError> {
-        let mut run = self.histories(focus, bound, kinds, second_engine)?;
+        let mut run = self.histories(focus, bound, kinds)?;
         let mut semantics = (*run.semantics).clone();
         semantics.alphabet.at_last = true;
         run.semantics = Arc::new(semantics);
@@ -68,17 +66,14 @@ impl Subject<'_> {
     pub fn default_histories(&self) -> Result<Vec<HistoryRun<Checked>>, FocusError> {
         let twice = Bound { replicas: 2, mutations: 2 };
         let mut runs = vec![
-            self.histories(4, Bound { replicas: 3, mutations: 1 }, &K::ALL, true)?,
-            self.at_last(2, twice, &K::ALL, true)?,
+            self.histories(2, twice, &K::ALL)?,
+            self.histories(4, Bound { replicas: 3, mutations: 1 }, &K::ALL)?,
         ];
         for pair in pairs() {
-            // Additions multiply: a whole focus of them is for `--deep`.
-            let is_large = pair.contains(&K::AddVertex) || pair == [K::UpdateAttributes, K::MoveEdge];
-            let run = if is_large { Self::at_last } else { Self::histories };
-            runs.push(run(self, 3, twice, &pair, true)?);
+            runs.push(self.histories(3, twice, &pair)?);
         }
-        for pair in pairs().filter(|pair| !LARGE_PAIRS.contains(pair)) {
-            runs.push(self.at_last(2, Bound { replicas: 3, mutations: 2 }, &pair, true)?);
+        for pair in pairs() {
+            runs.push(self.at_last(2, Bound { replicas: 3, mutations: 2 }, &pair)?);
         }
         Ok(runs)
     }
@@ -88,8 +83,7 @@ impl Subject<'_> {
         let once =
             ScheduleBound { replicas: 2, readers: 0, mutations: 1, restarts: 1, resynchronisations: 1 };
         let twice = ScheduleBound { mutations: 2, ..once };
-        let all =
-            self.histories(SCHEDULE_FOCUS, Bound { replicas: 2, mutations: 1 }, &MutationKind::ALL, true)?;
+        let all = self.histories(SCHEDULE_FOCUS, Bound { replicas: 2, mutations: 1 }, &MutationKind::ALL)?;
         let (focus, everything) = (all.focus, all.semantics);
         let four = Arc::new(Restricted { mutations: four_mutations(&everything), whole: everything.clone() });
         let reader = ScheduleBound { readers: 1, ..once };
@@ -99,12 +93,14 @@ impl Subject<'_> {
                 semantics: everything.clone(),
                 focus,
                 bound: once,
+                second_engine: true,
             }),
             Box::new(ScheduleRun {
                 name: "2 × 2, four mutations".into(),
                 semantics: four.clone(),
                 focus,
                 bound: twice,
+                second_engine: true,
             }),
             Box::new(ReductionRun {
                 name: "2 × 1 and a reader, all six".into(),
@@ -120,28 +116,28 @@ impl Subject<'_> {
         let twice = Bound { replicas: 2, mutations: 2 };
         let mut runs = Vec::new();
         for pair in LARGE_PAIRS {
-            runs.push(self.at_last(2, Bound { replicas: 3, mutations: 2 }, &pair, true)?);
+            runs.push(self.at_last(2, Bound { replicas: 3, mutations: 2 }, &pair)?);
         }
         runs.extend([
-            self.histories(2, twice, &K::ALL, false)?,
-            self.at_last(3, twice, &K::ALL, false)?,
-            self.at_last(2, Bound { replicas: 3, mutations: 2 }, &K::ALL, false)?,
+            self.histories(2, twice, &K::ALL)?,
+            self.at_last(3, twice, &K::ALL)?,
+            self.at_last(2, Bound { replicas: 3, mutations: 2 }, &K::ALL)?,
         ]);
         for other in [K::AddEdge, K::UpdateAttributes, K::RemoveEdge, K::MoveEdge, K::RemoveVertex] {
-            runs.push(self.histories(3, twice, &[K::AddVertex, other], false)?);
+            runs.push(self.histories(3, twice, &[K::AddVertex, other])?);
         }
         for (replicas, mutations) in [(2, 3), (4, 2), (3, 3)] {
             for pair in pairs() {
-                runs.push(self.at_last(2, Bound { replicas, mutations }, &pair, false)?);
+                runs.push(self.at_last(2, Bound { replicas, mutations }, &pair)?);
             }
         }
         for (replicas, mutations) in [(2, 3), (3, 2)] {
             for pair in pairs() {
-                runs.push(self.histories(2, Bound { replicas, mutations }, &pair, false)?);
+                runs.push(self.histories(2, Bound { replicas, mutations }, &pair)?);
             }
         }
-        runs.push(self.histories(3, twice, &K::ALL, false)?);
-        runs.push(self.histories(2, Bound { replicas: 3, mutations: 2 }, &K::ALL, false)?);
+        runs.push(self.histories(3, twice, &K::ALL)?);
+        runs.push(self.histories(2, Bound { replicas: 3, mutations: 2 }, &K::ALL)?);
         Ok(runs)
     }
 }

@@ -43,10 +43,8 @@ impl<T: Eq + Hash> Interner<T> {
 }
 
 /// One thing that a replica can do in a state.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Move {
-    /// Its place in [`Semantics::mutations`].
-    pub index: u32,
     /// The delta that it broadcasts.
     pub delta: DeltaId,
     /// Its kind.
@@ -62,9 +60,9 @@ pub struct Tables<S: Semantics> {
     joins: FxHashMap<(StateId, DeltaId), StateId>,
     moves: FxHashMap<(StateId, usize), Arc<[Move]>>,
     sensitive: FxHashMap<StateId, bool>,
-    shapes: FxHashMap<S::Shape, Judged>,
-    renamed_states: FxHashMap<(StateId, usize), StateId>,
-    renamed_deltas: FxHashMap<(DeltaId, usize), DeltaId>,
+    restamped: FxHashMap<(DeltaId, u64), DeltaId>,
+    renamed_states: Renamed,
+    renamed_deltas: Renamed,
     /// What was seen.
     pub witnesses: Witnesses,
     /// States judged by the semantics, each once.
@@ -80,9 +78,9 @@ impl<S: Semantics> Default for Tables<S> {
             joins: FxHashMap::default(),
             moves: FxHashMap::default(),
             sensitive: FxHashMap::default(),
-            shapes: FxHashMap::default(),
-            renamed_states: FxHashMap::default(),
-            renamed_deltas: FxHashMap::default(),
+            restamped: FxHashMap::default(),
+            renamed_states: Renamed::default(),
+            renamed_deltas: Renamed::default(),
             witnesses: Witnesses::default(),
             judged: 0,
         }
@@ -126,11 +124,6 @@ impl<S: Semantics> Tables<S> {
         self.kinds.iter().fold(0, |all, kinds| all | kinds)
     }
 
-    /// How many different shapes were judged.
-    pub fn shapes(&self) -> usize {
-        self.shapes.len()
-    }
-
     /// How many different states and deltas were met.
     pub fn sizes(&self) -> (usize, usize) {
         (self.states.values.len(), self.deltas.values.len())
@@ -147,30 +140,34 @@ impl<S: Semantics> Tables<S> {
         joined
     }
 
-    /// What replica `replica` can do in a state; each step is judged when it is first computed.
+    /// What replica `replica` can do in a state. Each step is judged when it is first computed.
     pub fn moves(
         &mut self,
         semantics: &S,
         state: StateId,
         replica: usize,
     ) -> Result<Arc<[Move]>, StepFault<S>> {
-        if let Some(moves) = self.moves.get(&(state, replica)) {
-            return Ok(moves.clone());
+        if let Some(moves) = self.known_moves(state, replica) {
+            return Ok(moves);
         }
         let before = self.state(state);
         let mut moves = Vec::new();
-        for (index, mutation) in semantics.mutations(&before, replica).into_iter().enumerate() {
-            let Some(step) = semantics.mutate(&before, replica, &mutation) else { continue };
+        for (mutation, step) in semantics.steps(&before, replica) {
             if let Err(breach) = semantics.judge_step(&before, replica, &mutation, &step) {
                 return Err(StepFault { breach, before: state, replica, mutation, step });
             }
             let kind = semantics.kind(&mutation);
             let delta = self.intern_delta(step.delta, 1 << kind);
-            moves.push(Move { index: u32::try_from(index).unwrap_or(NONE), delta, kind });
+            moves.push(Move { delta, kind });
         }
         let moves: Arc<[Move]> = moves.into();
         self.moves.insert((state, replica), moves.clone());
         Ok(moves)
+    }
+
+    /// What replica `replica` can do in a state, if that was asked before.
+    pub fn known_moves(&self, state: StateId, replica: usize) -> Option<Arc<[Move]>> {
+        self.moves.get(&(state, replica)).cloned()
     }
 
     /// Whether what replicas may do in a state depends on their order.
@@ -194,11 +191,11 @@ impl<S: Semantics> Tables<S> {
         if permutation == 0 || state == NONE {
             return state;
         }
-        if let Some(&renamed) = self.renamed_states.get(&(state, permutation)) {
+        if let Some(renamed) = self.renamed_states.get(state, permutation) {
             return renamed;
         }
         let renamed = self.intern(semantics.rename_state(&self.state(state), to));
-        self.renamed_states.insert((state, permutation), renamed);
+        self.renamed_states.insert(state, permutation, renamed);
         renamed
     }
 
@@ -213,27 +210,58 @@ impl<S: Semantics> Tables<S> {
         if permutation == 0 || delta == NONE {
             return delta;
         }
-        if let Some(&renamed) = self.renamed_deltas.get(&(delta, permutation)) {
+        if let Some(renamed) = self.renamed_deltas.get(delta, permutation) {
             return renamed;
         }
         let kinds = self.delta_kinds(delta);
         let renamed = self.intern_delta(semantics.rename_delta(&self.delta(delta), to), kinds);
-        self.renamed_deltas.insert((delta, permutation), renamed);
+        self.renamed_deltas.insert(delta, permutation, renamed);
         renamed
+    }
+
+    /// A delta with another stamp.
+    pub fn restamp(&mut self, semantics: &S, delta: DeltaId, stamp: u64) -> DeltaId {
+        if let Some(&restamped) = self.restamped.get(&(delta, stamp)) {
+            return restamped;
+        }
+        let restamped = semantics.restamped(&self.delta(delta), stamp);
+        let restamped = self.intern_delta(restamped, self.delta_kinds(delta));
+        self.restamped.insert((delta, stamp), restamped);
+        restamped
+    }
+
+    /// Records what replica `replica` can do in a state.
+    pub fn set_moves(&mut self, state: StateId, replica: usize, moves: Arc<[Move]>) {
+        self.moves.insert((state, replica), moves);
     }
 
     /// Judges a state and collects what it bears witness of.
     pub fn judge(&mut self, semantics: &S, state: &S::State) -> Result<Judged, Breach> {
         self.judged += 1;
-        self.witnesses.insert(semantics.judge_each(state)?);
-        let shape = semantics.shape(state);
-        if let Some(&judged) = shape.as_ref().and_then(|shape| self.shapes.get(shape)) {
-            return Ok(judged);
-        }
         let judged = semantics.judge(state)?;
-        self.shapes.extend(shape.map(|shape| (shape, judged)));
         self.witnesses.insert(judged.witnesses);
         Ok(judged)
+    }
+}
+
+/// What numbers become by each permutation, as far as it was asked.
+#[derive(Debug, Default)]
+struct Renamed(Vec<Vec<u32>>);
+
+impl Renamed {
+    fn get(&self, id: u32, permutation: usize) -> Option<u32> {
+        self.0.get(permutation)?.get(id as usize).copied().filter(|&renamed| renamed != NONE)
+    }
+
+    fn insert(&mut self, id: u32, permutation: usize, renamed: u32) {
+        if self.0.len() <= permutation {
+            self.0.resize_with(permutation + 1, Vec::new);
+        }
+        let row = &mut self.0[permutation];
+        if row.len() <= id as usize {
+            row.resize(id as usize + 1, NONE);
+        }
+        row[id as usize] = renamed;
     }
 }
 

@@ -1,8 +1,8 @@
 //! Traces: a run as people and programs read it, step by step, up to the clause that breaks.
 //! `[spec: TRACE-1]`
 
-use crate::engine::Counterexample;
 use crate::histories::{Choice, FoundFault, Histories};
+use crate::search::Counterexample;
 use crate::semantics::{Breach, Semantics};
 use crate::tables::{DeltaId, StateId};
 use crate::verdict::RunTrace;
@@ -104,12 +104,12 @@ impl<'h, S: Semantics> TraceWriter<'h, S> {
     pub(crate) fn write(
         semantics: &'h S,
         histories: &'h mut Histories<S>,
-        found: &Counterexample<S>,
+        found: &Counterexample<Histories<S>>,
     ) -> Trace {
         let replicas = histories.bound().replicas;
         let states = vec![histories.initial(); replicas];
         let mut writer = Self { semantics, histories, steps: Vec::new(), messages: Vec::new(), states };
-        for choice in &found.choices {
+        for (_, choice) in &found.events {
             writer.replay(choice);
         }
         let mut names: Vec<String> = (0..replicas).map(replica_name).collect();
@@ -142,16 +142,16 @@ impl<'h, S: Semantics> TraceWriter<'h, S> {
     fn replay(&mut self, choice: &Choice) {
         self.receive_until(choice.replica, choice.before);
         let before = self.histories.tables().state(choice.before);
-        let mutations = self.semantics.mutations(&before, choice.replica);
-        let mutation = &mutations[choice.index as usize];
+        let delta = self.histories.tables().delta(choice.delta);
+        let mutation = self.semantics.mutation_of(&before, choice.replica, &delta);
         let after = self.histories.join(choice.before, choice.delta);
-        self.push_mutation(choice.replica, mutation, choice.delta, choice.before, after);
+        self.push_mutation(choice.replica, mutation.as_ref(), choice.delta, choice.before, after);
     }
 
     fn push_mutation(
         &mut self,
         replica: usize,
-        mutation: &S::Mutation,
+        mutation: Option<&S::Mutation>,
         delta: DeltaId,
         before: StateId,
         after: StateId,
@@ -160,8 +160,8 @@ impl<'h, S: Semantics> TraceWriter<'h, S> {
         let tables = self.histories.tables();
         let act = Act::Mutate {
             message: format!("m{}", self.messages.len()),
-            text: mutation.to_string(),
-            mutation: self.semantics.mutation_json(mutation),
+            text: mutation.map(ToString::to_string).unwrap_or_default(),
+            mutation: mutation.map(|mutation| self.semantics.mutation_json(mutation)).unwrap_or_default(),
             delta: self.semantics.delta_json(&tables.delta(delta)),
         };
         let changes = self.semantics.changes(&tables.state(before), &tables.state(after));
@@ -172,7 +172,7 @@ impl<'h, S: Semantics> TraceWriter<'h, S> {
     fn mutate_fault(&mut self, fault: &crate::tables::StepFault<S>) -> Vec<(String, Value)> {
         let delta = self.histories.intern_delta(fault.step.delta.clone());
         let after = self.histories.intern(fault.step.after.clone());
-        self.push_mutation(fault.replica, &fault.mutation, delta, fault.before, after);
+        self.push_mutation(fault.replica, Some(&fault.mutation), delta, fault.before, after);
         vec![(replica_name(fault.replica), self.semantics.state_json(&fault.step.after))]
     }
 

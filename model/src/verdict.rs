@@ -110,8 +110,12 @@ pub struct StateCounts {
     pub unique: u64,
     /// Generated, repeated ones included.
     pub generated: u64,
-    /// Replica states judged: delivered subsets.
+    /// Replica states judged, one of each shape where shapes save judging.
     pub judged: u64,
+    /// Delivered subsets of histories that they stand for.
+    pub subsets: u64,
+    /// Sets that their shapes saved, and that were judged all the same to try the shapes.
+    pub sampled: u64,
     /// Deliveries compared in another order.
     pub diamonds: u64,
 }
@@ -137,6 +141,8 @@ pub struct RunReport {
     pub states: StateCounts,
     /// How long it took.
     pub seconds: f64,
+    /// How long the first engine took of that, where there are two.
+    pub search_seconds: f64,
     /// The verdict on all properties together.
     pub verdict: Verdict,
     /// Clause by clause.
@@ -180,6 +186,7 @@ impl RunReport {
             operations: 0,
             states: StateCounts::default(),
             seconds,
+            search_seconds: seconds,
             verdict: Verdict::Vacuous,
             properties: Vec::new(),
             second_engine: None,

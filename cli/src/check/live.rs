@@ -50,9 +50,9 @@ fn run_one(
     let over = AtomicBool::new(false);
     let report = std::thread::scope(|scope| {
         scope.spawn(|| watch(&title, &progress, &over, screen));
-        let report = job.run(&progress);
-        over.store(true, Relaxed);
-        report
+        // Even a run that panics is over.
+        let _over = Over(&over);
+        job.run(&progress)
     });
     let line =
         format!("{title}: {} · {} states · {:.1} s", report.verdict, report.states.unique, report.seconds);
@@ -61,6 +61,15 @@ fn run_one(
         None => err(line),
     }
     report
+}
+
+/// Says that a run is over, however it ends.
+struct Over<'o>(&'o AtomicBool);
+
+impl Drop for Over<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Relaxed);
+    }
 }
 
 /// Says now and then how far a run is, until it is over.
@@ -98,8 +107,14 @@ fn state_of(progress: &Progress) -> String {
     #[expect(clippy::cast_precision_loss, reason = "a rate to look at")]
     let rate = unique as f64 / seconds;
     let memory = memory_mb().map_or(String::new(), |mb| format!(" · {mb} MB"));
+    let witnessed = progress.witnessed();
+    let again = match progress.recounted() {
+        0 => String::new(),
+        recounted => format!(" · counted again {recounted}"),
+    };
     format!(
-        "{unique} unique of {generated} · {judged} judged · depth {depth} · {rate:.0}/s · {seconds:.0} s{memory}"
+        "{unique} unique of {generated} · {judged} judged · depth {depth} · {witnessed} witnessed · \
+         {rate:.0}/s · {seconds:.0} s{memory}{again}"
     )
 }
 

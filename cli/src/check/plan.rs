@@ -42,7 +42,7 @@ fn suite(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
     }
     if wanted(Layer::L0) {
         let semantics =
-            subject.histories(FOCUS_DEFAULT, Bound { replicas: 2, mutations: 1 }, &MutationKind::ALL, true);
+            subject.histories(FOCUS_DEFAULT, Bound { replicas: 2, mutations: 1 }, &MutationKind::ALL);
         let semantics = semantics.map_err(|error| error.to_string())?.semantics;
         let records = if arguments.deep { vec![5] } else { vec![4, 3] };
         for records in records {
@@ -92,7 +92,7 @@ fn of_file(arguments: &Arguments, file: &str) -> Result<Box<dyn Job>, String> {
     kinds.sort_unstable();
     kinds.dedup();
     let mut run =
-        subject.histories(names.len(), bound, &kinds, true).map_err(|error| format!("{file}: {error}"))?;
+        subject.histories(names.len(), bound, &kinds).map_err(|error| format!("{file}: {error}"))?;
     run.name = format!("{file} [{}]: {}", names.join(", "), run.name);
     Ok(Box::new(run))
 }

@@ -4,7 +4,7 @@ use super::shown::Shown;
 use super::shown_judge::judge_shown;
 use crate::algebra::{Algebra, Family, core_universe};
 use crate::checked::{Act, Checked, replica_id};
-use crate::semantics::{Breach, Judged, Semantics, Step};
+use crate::semantics::{Breach, Competition, Judged, Semantics, Step};
 use dsr_core::{Author, Delta, Mutation, State, View, delta_for, digest, view};
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -46,6 +46,16 @@ pub trait Flaw: Send + Sync + Debug {
         delta_for(ours, &digest(theirs))
     }
 
+    /// When the checker takes two deltas to compete.
+    fn competition(&self, competition: Competition) -> Competition {
+        competition
+    }
+
+    /// What the checker takes a sound state to be.
+    fn judged(&self, judged: Judged) -> Judged {
+        judged
+    }
+
     /// What replica `here` shows.
     fn show(&self, view: &View<'_>, here: usize) -> Shown {
         let _ = here;
@@ -82,7 +92,6 @@ impl Broken {
 }
 
 impl Semantics for Broken {
-    type Shape = ();
     type State = State;
     type Delta = Delta;
     type Mutation = Act;
@@ -129,7 +138,27 @@ impl Semantics for Broken {
             return Err(Breach::new("VIEW-1", "two replicas show one state differently"));
         }
         judge_shown(&shown[0], state, &self.core.dictionary)?;
-        Ok(judged)
+        Ok(self.flaw.judged(judged))
+    }
+
+    fn stamp(&self, delta: &Delta) -> Option<u64> {
+        self.core.stamp(delta)
+    }
+
+    fn restamped(&self, delta: &Delta, stamp: u64) -> Delta {
+        self.core.restamped(delta, stamp)
+    }
+
+    fn next_stamp(&self, state: &State) -> u64 {
+        self.core.next_stamp(state)
+    }
+
+    fn compete(&self, left: &Delta, right: &Delta) -> Competition {
+        self.flaw.competition(self.core.compete(left, right))
+    }
+
+    fn appearance(&self, state: &State) -> u64 {
+        self.core.appearance(state)
     }
 
     fn judge_step(

@@ -1,8 +1,8 @@
 //! Alarms: cores broken on purpose, and which layer finds each. `[spec: CHECK-8]`
 //!
-//! A checker that finds nothing may be blind. Each alarm is `dsr-core` with one flaw, behind the same traits
-//! and under the same clauses; none is told what is broken. Every one must be found, and the sound core by
-//! no layer.
+//! A checker that finds nothing may be blind. Each alarm is `dsr-core` with one flaw, or the search with one,
+//! behind the same traits, under the same clauses and with the reductions that ship; none is told what is
+//! broken. Every one must be found, and the sound core by no layer.
 
 mod authors;
 mod broken;
@@ -11,6 +11,7 @@ mod parts;
 mod report;
 mod resync;
 mod run;
+mod shapes;
 mod shown;
 mod shown_judge;
 mod subject;
@@ -50,7 +51,7 @@ fn alarm(name: &'static str, clause: &'static str, broken: &'static str, flaw: i
 
 /// Every alarm.
 pub fn all() -> Vec<Alarm> {
-    [of_joins(), of_authors(), of_resynchronisation(), of_views()].concat()
+    [of_joins(), of_authors(), of_resynchronisation(), of_views(), of_shapes()].concat()
 }
 
 fn of_joins() -> Vec<Alarm> {
@@ -179,5 +180,29 @@ fn of_views() -> Vec<Alarm> {
         alarm("pending-shown", "CLOSE-4", "edges are shown before their ends have arrived", PendingShown),
         alarm("not-reattached", "VIEW-5", "what lost its way to the root is left in the air", NotReattached),
         alarm("first-write", "VIEW-8", "of several live writes the first dot is shown", FirstWrite),
+    ]
+}
+
+fn of_shapes() -> Vec<Alarm> {
+    use shapes::{EntanglementUntold, OrderUntold, RanksUntold};
+    vec![
+        alarm(
+            "ranks-untold",
+            "CHECK-11",
+            "the search judges sets as one whose claims rank differently",
+            RanksUntold,
+        ),
+        alarm(
+            "entanglement-untold",
+            "CHECK-11",
+            "the search forgets that claims on two registers can decide about each other",
+            EntanglementUntold,
+        ),
+        alarm(
+            "order-untold",
+            "CHECK-11",
+            "the search takes it that no rank ever decides anything",
+            OrderUntold,
+        ),
     ]
 }

@@ -111,7 +111,8 @@ struct Rung {
     states_max: u64,
 }
 
-/// All six kinds on two vertices while that is cheap; then, on one vertex, pairs of kinds that add none.
+/// All six kinds on two vertices while that is cheap; then, on one vertex, pairs of kinds that add none; last
+/// one pair on both.
 fn ladder() -> Vec<Rung> {
     let all = MutationKind::ALL;
     let rung = |replicas, mutations| Rung {
@@ -129,6 +130,9 @@ fn ladder() -> Vec<Rung> {
             Rung { kinds, focus: &[B], states_max: PAIR_STATES_MAX, ..rung(2, 2) }
         }));
     }
+    // Two vertices that can come to be below each other, and something that shifts stamps.
+    let kinds = vec![MutationKind::UpdateAttributes, MutationKind::MoveEdge];
+    ladder.push(Rung { kinds, states_max: PAIR_STATES_MAX, ..rung(2, 2) });
     ladder
 }
 
@@ -169,7 +173,7 @@ fn schedules(make: Make<'_>) -> Outcome {
         let resynchronisations = u8::from(replicas * mutations < 4);
         let bound = ScheduleBound { replicas, readers: 0, mutations, restarts: 1, resynchronisations };
         let semantics = Arc::new(make(&rung.kinds, rung.focus));
-        ScheduleRun { name, semantics, focus: rung.focus.len(), bound }.run(progress)
+        ScheduleRun { name, semantics, focus: rung.focus.len(), bound, second_engine: false }.run(progress)
     })
 }
 

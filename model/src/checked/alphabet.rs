@@ -149,14 +149,14 @@ impl Alphabet {
         mutations.push(Mutation::AddVertex { vertex: twin, link: VertexLink::child_of(VertexId::ROOT) });
     }
 
-    /// Between each two vertices besides the root a functional edge, and a plain one from the older to the
-    /// younger; a kinematic one to each vertex that has no parent.
+    /// Between each two vertices besides the root a functional edge, and a plain one to what is not older; a
+    /// kinematic one to each vertex that has no parent.
     fn add_edge(&self, view: &View<'_>, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
         for &from in focus {
             for &to in focus.iter().filter(|&&to| to != from) {
                 let orphan = matches!(view.placement(to), Some(Placement::Outside | Placement::Detached));
                 let symbolic = !from.is_root() && !to.is_root() && self.at(from);
-                let plain = symbolic && (from < to || self.at_last);
+                let plain = symbolic && (!is_older(to, from) || self.at_last);
                 let labels = [(FUNCTIONAL, symbolic), (PLAIN, plain), (RT, orphan && self.at(to))];
                 let labels = labels.into_iter().filter(|(_, wanted)| *wanted);
                 mutations.extend(labels.map(|(label, _)| Mutation::AddEdge {
@@ -166,6 +166,13 @@ impl Alphabet {
             }
         }
     }
+}
+
+/// Whether one vertex is older than another, whatever replicas are called: of two that different replicas
+/// added neither is.
+fn is_older(left: VertexId, right: VertexId) -> bool {
+    let (left, right) = (left.0, right.0);
+    left < right && (left.replica == right.replica || left.replica == ReplicaId::SCENE)
 }
 
 /// Whose edge it is: the child's for a kinematic one, else the source's.

@@ -3,11 +3,9 @@
 pub mod alphabet;
 mod intent;
 mod renaming;
-mod shape;
+mod timeless;
 
-pub use shape::Shape;
-
-use crate::semantics::{Breach, Judged, Semantics, Step, Witnesses};
+use crate::semantics::{Breach, Competition, Judged, Semantics, Step, Witnesses};
 use alphabet::Alphabet;
 use dsr_core::invariant::{Violation, check_repairs, check_view};
 use dsr_core::{
@@ -131,6 +129,9 @@ fn witnesses_of(view: &View<'_>) -> Witnesses {
         seen.insert(Witnesses::bit(CONCURRENT_WRITES));
     }
     let state = view.state();
+    if state.context().cloud_runs().next().is_some() {
+        seen.insert(Witnesses::bit(CLOUD));
+    }
     let unseen = |dot: dsr_core::Dot| dot.sequence != 0 && !state.context().contains(dot);
     if state.records().any(|(_, record)| record.anchors().any(unseen)) {
         seen.insert(Witnesses::bit(PENDING));
@@ -154,7 +155,6 @@ impl Semantics for Checked {
     type State = State;
     type Delta = Delta;
     type Mutation = Act;
-    type Shape = Shape;
 
     fn name(&self) -> String {
         "checked".into()
@@ -175,8 +175,29 @@ impl Semantics for Checked {
         Some(Step { delta, after })
     }
 
+    fn steps(&self, state: &State, replica: usize) -> Vec<(Act, Step<Self>)> {
+        let view = view(state, &self.dictionary);
+        let author = Author::new(replica_id(replica));
+        let mutations = self.alphabet.enabled(&view, replica).into_iter();
+        mutations
+            .filter_map(|mutation| {
+                let delta = mutation.delta(&view, author).ok()?;
+                let after = state.joined(&delta);
+                Some((Act(mutation), Step { delta, after }))
+            })
+            .collect()
+    }
+
     fn join(&self, state: &State, delta: &Delta) -> State {
         state.joined(delta)
+    }
+
+    fn join_all(&self, state: &State, deltas: &[&Delta]) -> State {
+        let mut state = state.clone();
+        for delta in deltas {
+            state.join(delta);
+        }
+        state
     }
 
     fn repair(&self, ours: &State, theirs: &State) -> Option<Delta> {
@@ -187,22 +208,36 @@ impl Semantics for Checked {
         Some(left.joined(right))
     }
 
-    fn shape(&self, state: &State) -> Option<Shape> {
-        shape::shape_of(state)
+    fn stamp(&self, delta: &Delta) -> Option<u64> {
+        (!delta.is_empty()).then(|| delta.greatest_stamp())
+    }
+
+    fn restamped(&self, delta: &Delta, stamp: u64) -> Delta {
+        timeless::restamped(delta, stamp)
+    }
+
+    fn next_stamp(&self, state: &State) -> u64 {
+        state.greatest_stamp().saturating_add(1)
+    }
+
+    fn compete(&self, left: &Delta, right: &Delta) -> Competition {
+        timeless::compete(left, right, &self.dictionary)
+    }
+
+    fn appearance(&self, state: &State) -> u64 {
+        timeless::appearance(&view(state, &self.dictionary))
     }
 
     /// `[property: STATE-6]`
-    fn judge_each(&self, state: &State) -> Result<Witnesses, Breach> {
-        check_well_formed(state).map_err(|fault| Breach::new("STATE-6", fault))?;
-        let cloud = state.context().cloud_runs().next().is_some();
-        Ok(if cloud { Witnesses::bit(CLOUD) } else { Witnesses::default() })
-    }
-
     fn judge(&self, state: &State) -> Result<Judged, Breach> {
-        self.judge_each(state)?;
+        check_well_formed(state).map_err(|fault| Breach::new("STATE-6", fault))?;
         let view = view(state, &self.dictionary);
         judge_view(&view)?;
-        Ok(Judged { witnesses: witnesses_of(&view), order_sensitive: is_order_sensitive(&view) })
+        Ok(Judged {
+            witnesses: witnesses_of(&view),
+            order_sensitive: is_order_sensitive(&view),
+            entangled: timeless::is_entangled(&view),
+        })
     }
 
     fn judge_step(

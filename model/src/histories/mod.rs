@@ -9,18 +9,22 @@
 //! each replica that may still mutate.
 
 mod judge;
-mod model;
+mod known;
 mod run;
+mod shapes;
 mod symmetry;
 
 pub use judge::Fault;
-pub use model::{FoundFault, HistoryModel};
 pub use run::HistoryRun;
 pub use symmetry::Permutations;
 
-use crate::semantics::Semantics;
-use crate::tables::{DeltaId, NONE, StateId, StepFault, Tables};
+use crate::search::Space;
+use crate::semantics::{Breach, Semantics};
+use crate::tables::{DeltaId, Move, NONE, StateId, StepFault, Tables};
 use judge::Judge;
+use rustc_hash::FxHashMap;
+use shapes::{Grain, Shape, Shapes};
+use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
 /// The most replicas of a run.
@@ -28,9 +32,10 @@ pub const REPLICAS_MAX: usize = 4;
 /// The most mutations of one replica.
 pub const MUTATIONS_MAX: usize = 4;
 
-/// Duplicates and resynchronisation are judged in every set of at most this many deltas; of larger sets L0 and
-/// L2 judge them.
-const REPLAY_MAX: usize = 2;
+/// What is concluded from shapes is tried all the same, each time until this often, and then on a sample.
+const TRIED_FIRST: u64 = 2048;
+/// Of so many shapes one is in the sample: a power of two.
+const SAMPLE: u64 = 256;
 
 /// How far a run goes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -42,7 +47,7 @@ pub struct Bound {
 }
 
 /// A history, by what can still matter.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct History {
     /// Per replica, the deltas that it broadcast, in order.
     pub deltas: [[DeltaId; MUTATIONS_MAX]; REPLICAS_MAX],
@@ -50,6 +55,18 @@ pub struct History {
     pub last: [StateId; REPLICAS_MAX],
     /// Whether it stands for itself alone, not for its images under renaming replicas.
     pub concrete: bool,
+}
+
+/// Word by word and not number by number: most of a search is hashing.
+impl Hash for History {
+    fn hash<H: Hasher>(&self, hasher: &mut H) {
+        for row in self.deltas.iter().chain([&self.last]) {
+            for pair in row.chunks_exact(2) {
+                hasher.write_u64(u64::from(pair[0]) << 32 | u64::from(pair[1]));
+            }
+        }
+        hasher.write_u8(u8::from(self.concrete));
+    }
 }
 
 impl History {
@@ -76,8 +93,6 @@ pub struct Choice {
     pub replica: usize,
     /// Its state after the deliveries and before the mutation.
     pub before: StateId,
-    /// Which of its mutations in that state.
-    pub index: u32,
     /// The delta broadcast.
     pub delta: DeltaId,
 }
@@ -89,9 +104,12 @@ pub struct Histories<S: Semantics> {
     bound: Bound,
     permutations: Permutations,
     tables: Tables<S>,
-    judge: Judge,
-    /// The largest sets in which deltas are delivered twice and parts resynchronised.
-    replay_max: usize,
+    shapes: Shapes,
+    judge: Judge<S>,
+    /// By state, deltas that lead to it from the initial one.
+    origins: Vec<Arc<[DeltaId]>>,
+    /// What replicas can do in the first state of each shape.
+    stepped: FxHashMap<(Shape, usize), Arc<[Move]>>,
     /// Which pairs of kinds were concurrent, by `kind * kinds + kind`.
     concurrent: u64,
     kinds: usize,
@@ -105,13 +123,16 @@ impl<S: Semantics> Histories<S> {
         let mut tables = Tables::default();
         let initial = tables.intern(semantics.initial());
         let kinds = semantics.kinds().len();
+        let permutations = Permutations::of(if symmetry { bound.replicas } else { 1 });
         Self {
             semantics,
             bound,
-            permutations: Permutations::of(if symmetry { bound.replicas } else { 1 }),
+            shapes: Shapes::new(permutations.clone()),
+            permutations,
             tables,
             judge: Judge::default(),
-            replay_max: REPLAY_MAX,
+            origins: vec![Arc::default()],
+            stepped: FxHashMap::default(),
             concurrent: 0,
             kinds,
             initial,
@@ -136,14 +157,50 @@ impl<S: Semantics> Histories<S> {
         self.initial
     }
 
-    /// The state after a delivery.
-    pub fn join(&mut self, state: StateId, delta: DeltaId) -> StateId {
-        self.tables.join(&self.semantics, state, delta)
+    /// Whether sets of one shape are judged once, and of how many shapes that is tried on one all the same:
+    /// a power of two.
+    pub fn set_shapes(&mut self, shapes: bool, tried_of: u64) {
+        self.shapes.set_in_use(shapes);
+        self.judge.sample = tried_of;
     }
 
-    /// The number of a state from outside the search, for its trace.
+    /// The state after a delivery.
+    pub fn join(&mut self, state: StateId, delta: DeltaId) -> StateId {
+        let joined = self.tables.join(&self.semantics, state, delta);
+        if joined as usize == self.origins.len() {
+            let mut origin = self.origins[state as usize].to_vec();
+            origin.push(delta);
+            self.origins.push(origin.into());
+        }
+        joined
+    }
+
+    /// A state with its replicas renamed.
+    fn rename_state(&mut self, state: StateId, permutation: usize) -> StateId {
+        let to = self.permutations.get(permutation);
+        let renamed = self.tables.rename_state(&self.semantics, state, permutation, to);
+        if renamed as usize == self.origins.len() {
+            let origin = self.origins[state as usize].clone();
+            let origin = self.rename_set(&origin, permutation);
+            self.origins.push(origin.into());
+        }
+        renamed
+    }
+
+    /// Deltas with their replicas renamed.
+    fn rename_set(&mut self, set: &[DeltaId], permutation: usize) -> Vec<DeltaId> {
+        let to = self.permutations.get(permutation);
+        let rename = |&delta| self.tables.rename_delta(&self.semantics, delta, permutation, to);
+        set.iter().map(rename).collect()
+    }
+
+    /// The number of a state from outside the search, for its trace. Nothing is done in it.
     pub(crate) fn intern(&mut self, state: S::State) -> StateId {
-        self.tables.intern(state)
+        let id = self.tables.intern(state);
+        if id as usize == self.origins.len() {
+            self.origins.push(Arc::default());
+        }
+        id
     }
 
     /// The number of a delta from outside the search, for its trace.
@@ -172,12 +229,23 @@ impl<S: Semantics> Histories<S> {
         self.bound
     }
 
+    /// Replica states judged, of how many delivered subsets, by how many diamonds, and how many of the sample
+    /// that shapes saved were judged all the same.
+    pub fn judged(&self) -> Judged {
+        Judged {
+            states: self.tables.judged,
+            subsets: self.judge.subsets,
+            diamonds: self.judge.diamonds,
+            sampled: self.judge.sampled,
+        }
+    }
+
     /// Every history one mutation longer.
     pub fn successors(
         &mut self,
         history: &History,
         out: &mut Vec<(Choice, History)>,
-    ) -> Result<(), StepFault<S>> {
+    ) -> Result<(), FoundFault<S>> {
         for replica in 0..self.bound.replicas {
             if history.last[replica] == NONE {
                 continue;
@@ -202,7 +270,7 @@ impl<S: Semantics> Histories<S> {
         let mut states = vec![history.last[replica]];
         for delta in foreign {
             for at in 0..states.len() {
-                let joined = self.tables.join(&self.semantics, states[at], delta);
+                let joined = self.join(states[at], delta);
                 states.push(joined);
             }
             states.sort_unstable();
@@ -217,21 +285,18 @@ impl<S: Semantics> Histories<S> {
         replica: usize,
         before: StateId,
         out: &mut Vec<(Choice, History)>,
-    ) -> Result<(), StepFault<S>> {
-        let moves = self.tables.moves(&self.semantics, before, replica)?;
+    ) -> Result<(), FoundFault<S>> {
+        let moves = self.moves(before, replica)?;
         let unseen = self.kinds_unseen(history, replica, before);
         let made = history.made(replica);
         for step in moves.iter() {
             let mut next = *history;
             next.deltas[replica][made] = step.delta;
-            next.last[replica] = if made + 1 < self.bound.mutations {
-                self.tables.join(&self.semantics, before, step.delta)
-            } else {
-                NONE
-            };
+            next.last[replica] =
+                if made + 1 < self.bound.mutations { self.join(before, step.delta) } else { NONE };
             self.note_concurrent(step.kind, unseen);
             let next = if history.concrete { next } else { self.canonical(&next) };
-            out.push((Choice { replica, before, index: step.index, delta: step.delta }, next));
+            out.push((Choice { replica, before, delta: step.delta }, next));
         }
         Ok(())
     }
@@ -243,16 +308,80 @@ impl<S: Semantics> Histories<S> {
         replica: usize,
         before: StateId,
         out: &mut Vec<(Choice, History)>,
-    ) -> Result<(), StepFault<S>> {
+    ) -> Result<(), FoundFault<S>> {
         for permutation in 0..self.permutations.len() {
             let mut image = self.image(history, permutation);
             image.concrete = true;
-            let to = self.permutations.get(permutation);
-            let (replica, to) = (to[replica], to.to_vec());
-            let before = self.tables.rename_state(&self.semantics, before, permutation, &to);
+            let replica = self.permutations.image(replica, permutation);
+            let before = self.rename_state(before, permutation);
             self.successors_at(&image, replica, before, out)?;
         }
         Ok(())
+    }
+
+    /// What a replica can do in a state. In states of one shape that is the same but for stamps, and where no
+    /// rank decides anything but for names of replicas; so it is tried and judged once for all of them, and
+    /// on a sample each time. `[spec: CHECK-11]`
+    fn moves(&mut self, before: StateId, replica: usize) -> Result<Arc<[Move]>, FoundFault<S>> {
+        if let Some(moves) = self.tables.known_moves(before, replica) {
+            return Ok(moves);
+        }
+        let origin = self.origins[before as usize].clone();
+        let sensitive = self.tables.is_order_sensitive(&self.semantics, before);
+        let grain = if sensitive { Grain::Fine } else { Grain::Outline };
+        let shape = Shape::from(self.shapes.of(&*self.semantics, &mut self.tables, &origin, grain));
+        let by = self.shapes.by();
+        let is_tried = self.judge.is_tried(&shape);
+        let key = (shape, self.permutations.image(replica, by));
+        let Some(alike) = self.stepped.get(&key).cloned() else {
+            let moves = self.tables.moves(&self.semantics, before, replica).map_err(FoundFault::Step)?;
+            let image = moves.iter().map(|step| self.rename_move(*step, by)).collect();
+            self.stepped.insert(key, image);
+            return Ok(moves);
+        };
+        let moves = self.moves_alike(before, by, &alike);
+        if is_tried {
+            let own = self.tables.moves(&self.semantics, before, replica).map_err(FoundFault::Step)?;
+            let sorted = |moves: &[Move]| -> Vec<DeltaId> {
+                let mut deltas: Vec<DeltaId> = moves.iter().map(|step| step.delta).collect();
+                deltas.sort_unstable();
+                deltas
+            };
+            if sorted(&own) != sorted(&moves) {
+                return Err(FoundFault::Delivered(Fault::new(judge::unlike(), &origin, None)));
+            }
+        }
+        self.tables.set_moves(before, replica, moves.clone());
+        Ok(moves)
+    }
+
+    /// The moves of a state from those of one that looks like it does after renaming replicas `by` a
+    /// permutation, but for stamps.
+    fn moves_alike(&mut self, before: StateId, by: usize, alike: &[Move]) -> Arc<[Move]> {
+        let back = self.permutations.inverse(by);
+        let stamp = self.semantics.next_stamp(&self.tables.state(before));
+        let own = |step: &Move| {
+            let step = self.rename_move(*step, back);
+            let has_stamp = self.semantics.stamp(&self.tables.delta(step.delta)).is_some();
+            let restamped = has_stamp.then(|| self.tables.restamp(&self.semantics, step.delta, stamp));
+            Move { delta: restamped.unwrap_or(step.delta), ..step }
+        };
+        alike.iter().map(own).collect()
+    }
+
+    fn rename_move(&mut self, step: Move, permutation: usize) -> Move {
+        let to = self.permutations.get(permutation);
+        let delta = self.tables.rename_delta(&self.semantics, step.delta, permutation, to);
+        Move { delta, ..step }
+    }
+
+    /// Whether a longer history exists: what is delivered here is then judged as part of that one.
+    fn is_extended(&mut self, history: &History) -> bool {
+        (0..self.bound.replicas).any(|replica| {
+            let last = history.last[replica];
+            // A faulty step is a fault, not an end: the search is about to meet it.
+            last != NONE && self.moves(last, replica).map_or(true, |moves| !moves.is_empty())
+        })
     }
 
     /// The kinds of the mutations that a replica in this state has not seen.
@@ -260,7 +389,7 @@ impl<S: Semantics> Histories<S> {
         let mut kinds = 0;
         for (other, deltas) in history.deltas.iter().enumerate() {
             for &delta in deltas.iter().filter(|&&delta| delta != NONE && other != replica) {
-                if self.tables.join(&self.semantics, before, delta) != before {
+                if self.join(before, delta) != before {
                     kinds |= self.tables.delta_kinds(delta);
                 }
             }
@@ -272,5 +401,71 @@ impl<S: Semantics> Histories<S> {
         for other in (0..self.kinds).filter(|other| unseen >> other & 1 == 1) {
             self.concurrent |= 1 << (kind.min(other) * self.kinds + kind.max(other));
         }
+    }
+}
+
+/// What a search has judged.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Judged {
+    /// Replica states, one of each shape.
+    pub states: u64,
+    /// Delivered subsets of histories that they stand for.
+    pub subsets: u64,
+    /// Deliveries compared in another order.
+    pub diamonds: u64,
+    /// Of the sets that shapes saved, those judged all the same.
+    pub sampled: u64,
+}
+
+/// What broke.
+#[derive(Debug)]
+pub enum FoundFault<S: Semantics> {
+    /// A delivered set.
+    Delivered(Fault),
+    /// A local step.
+    Step(StepFault<S>),
+}
+
+impl<S: Semantics> FoundFault<S> {
+    /// The clause.
+    pub fn breach(&self) -> &Breach {
+        match self {
+            Self::Delivered(fault) => &fault.breach,
+            Self::Step(fault) => &fault.breach,
+        }
+    }
+}
+
+impl<S: Semantics> Space for Histories<S> {
+    type Node = History;
+    type Event = Choice;
+    type Fault = FoundFault<S>;
+
+    fn start(&self) -> History {
+        Self::start(self)
+    }
+
+    fn successors(&mut self, at: &History, out: &mut Vec<(Choice, History)>) -> Result<(), FoundFault<S>> {
+        Self::successors(self, at, out)
+    }
+
+    fn judge(&mut self, at: &History) -> Result<(), FoundFault<S>> {
+        Self::judge(self, at).map_err(FoundFault::Delivered)
+    }
+
+    fn is_covered(&mut self, at: &History) -> bool {
+        self.is_extended(at)
+    }
+
+    fn depth(&self, at: &History) -> usize {
+        at.depth()
+    }
+
+    fn states_judged(&self) -> u64 {
+        self.tables.judged
+    }
+
+    fn witnessed(&self) -> usize {
+        self.tables.witnesses.count() + self.kinds_done().count_ones() as usize
     }
 }

@@ -6,9 +6,8 @@
 //! made in order-free states stands for all its images; from the first that was not, each image goes
 //! its own way. Counts over the orbits must equal those without symmetry, and do.
 
-use super::{Histories, History, MUTATIONS_MAX, REPLICAS_MAX};
+use super::{Histories, History};
 use crate::semantics::Semantics;
-use crate::tables::{DeltaId, NONE};
 
 /// All permutations of the replicas; the identity is number 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -42,6 +41,18 @@ impl Permutations {
         self.0.is_empty()
     }
 
+    /// The one that takes back what a permutation does.
+    pub fn inverse(&self, permutation: usize) -> usize {
+        let to = self.get(permutation);
+        let back = |candidate: &Vec<usize>| to.iter().enumerate().all(|(from, &to)| candidate[to] == from);
+        self.0.iter().position(back).unwrap_or(0)
+    }
+
+    /// Where a replica goes; without symmetry there is only the identity, which says nothing of any.
+    pub fn image(&self, replica: usize, permutation: usize) -> usize {
+        self.get(permutation).get(replica).copied().unwrap_or(replica)
+    }
+
     /// Where each replica goes.
     pub fn get(&self, permutation: usize) -> &[usize] {
         &self.0[permutation]
@@ -54,36 +65,23 @@ impl<S: Semantics> Histories<S> {
         if permutation == 0 {
             return *history;
         }
-        let to = self.permutations.get(permutation).to_vec();
         let mut image = *history;
-        for (replica, &target) in to.iter().enumerate() {
-            for made in 0..MUTATIONS_MAX {
-                let delta = history.deltas[replica][made];
+        for replica in 0..self.bound.replicas {
+            let to = self.permutations.get(permutation);
+            let target = to[replica];
+            for (made, &delta) in history.deltas[replica].iter().enumerate() {
                 image.deltas[target][made] =
-                    self.tables.rename_delta(&self.semantics, delta, permutation, &to);
+                    self.tables.rename_delta(&self.semantics, delta, permutation, to);
             }
-            let last = history.last[replica];
-            image.last[target] = self.tables.rename_state(&self.semantics, last, permutation, &to);
+            image.last[target] = self.rename_state(history.last[replica], permutation);
         }
         image
     }
 
     /// The least image: one history for each orbit.
     pub(super) fn canonical(&mut self, history: &History) -> History {
-        let images = (0..self.permutations.len()).map(|permutation| self.image(history, permutation));
-        images.min().unwrap_or(*history)
-    }
-
-    /// The least image of a set of deltas.
-    pub(super) fn canonical_set(&mut self, set: &[DeltaId]) -> DeltaSet {
-        let mut least = delta_set(set.iter().copied());
-        for permutation in 1..self.permutations.len() {
-            let to = self.permutations.get(permutation).to_vec();
-            let image =
-                set.iter().map(|&delta| self.tables.rename_delta(&self.semantics, delta, permutation, &to));
-            least = least.min(delta_set(image));
-        }
-        least
+        (1..self.permutations.len())
+            .fold(*history, |least, permutation| least.min(self.image(history, permutation)))
     }
 
     /// Every history that this one stands for.
@@ -96,17 +94,4 @@ impl<S: Semantics> Histories<S> {
         orbit.dedup();
         orbit
     }
-}
-
-/// Deltas sorted and padded: a set of them.
-pub(super) type DeltaSet = [u32; REPLICAS_MAX * MUTATIONS_MAX];
-
-/// The set of some deltas.
-pub(super) fn delta_set(deltas: impl Iterator<Item = u32>) -> DeltaSet {
-    let mut set = [NONE; REPLICAS_MAX * MUTATIONS_MAX];
-    for (slot, delta) in set.iter_mut().zip(deltas) {
-        *slot = delta;
-    }
-    set.sort_unstable();
-    set
 }

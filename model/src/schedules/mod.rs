@@ -9,14 +9,10 @@
 //! |---|---|
 //! | `state` | a moment of all replicas and of the network, and what may happen next |
 //! | `space` | successors and judgement, whatever the engine |
-//! | `model` | the space as stateright sees it |
 //! | `run` | a run and its report |
-//! | `engine` | a search of our own: counts, and shortest counterexamples |
 //! | `reduction` | histories against schedules |
 //! | `restricted` | a semantics with a few concrete mutations only |
 
-mod engine;
-mod model;
 mod reduction;
 mod restricted;
 mod run;
@@ -24,8 +20,6 @@ mod space;
 mod state;
 mod trace;
 
-pub use engine::{Counterexample, Reached, explore, find_fault};
-pub use model::ScheduleModel;
 pub use reduction::{Reduction, ReductionFault, check_reduction};
 pub use restricted::Restricted;
 pub use run::ScheduleRun;

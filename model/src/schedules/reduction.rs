@@ -2,9 +2,9 @@
 //! `[spec: CHECK-7]`
 
 use super::ScheduleBound;
-use super::engine::explore;
 use super::space::{ScheduleFault, Schedules};
-use crate::histories::{Bound, Histories, History, MUTATIONS_MAX, REPLICAS_MAX};
+use crate::histories::{Bound, Histories, MUTATIONS_MAX, REPLICAS_MAX};
+use crate::search;
 use crate::semantics::Semantics;
 use crate::tables::{DeltaId, NONE, StateId};
 use rustc_hash::FxHashSet;
@@ -70,7 +70,7 @@ pub fn check_reduction<S: Semantics>(
 ) -> Result<Reduction, ReductionFault> {
     let bound = ScheduleBound { restarts: 0, resynchronisations: 0, ..bound };
     let mut schedules = Schedules::new(semantics.clone(), bound);
-    let reached = explore(&mut schedules).map_err(ReductionFault::Schedule)?.schedules;
+    let reached = search::all(&mut schedules).map_err(ReductionFault::Schedule)?;
     let histories = all_histories(semantics, bound, &mut schedules)?;
 
     let schedule_pools: FxHashSet<Pool> = reached.iter().map(|schedule| schedule.deltas).collect();
@@ -118,18 +118,8 @@ fn all_histories<S: Semantics>(
 ) -> Result<Vec<Pool>, ReductionFault> {
     let bound = Bound { replicas: bound.replicas, mutations: bound.mutations };
     let mut space = Histories::new(semantics.clone(), bound, false);
-    let start = space.start();
-    let mut seen = FxHashSet::from_iter([start]);
-    let mut all: Vec<History> = vec![start];
-    let mut successors = Vec::new();
-    let mut at = 0;
-    while let Some(&history) = all.get(at) {
-        successors.clear();
-        let step = space.successors(&history, &mut successors);
-        step.map_err(|fault| ReductionFault::History(fault.breach.clause.into()))?;
-        all.extend(successors.iter().map(|&(_, next)| next).filter(|next| seen.insert(*next)));
-        at += 1;
-    }
+    let all = search::all(&mut space);
+    let all = all.map_err(|fault| ReductionFault::History(fault.breach().clause.into()))?;
     let mut translate = |delta: DeltaId| {
         if delta == NONE {
             return NONE;

@@ -1,6 +1,6 @@
 //! A semantics with a few concrete mutations only.
 
-use crate::semantics::{Breach, Clause, Judged, Semantics, Step, Witnesses};
+use crate::semantics::{Breach, Clause, Competition, Judged, Semantics, Step};
 use std::sync::Arc;
 
 /// Another semantics in which replicas try only the given mutations.
@@ -15,15 +15,26 @@ pub struct Restricted<S: Semantics> {
 impl<S: Semantics> Semantics for Restricted<S> {
     type State = S::State;
     type Delta = S::Delta;
-    type Shape = S::Shape;
     type Mutation = S::Mutation;
 
-    fn shape(&self, state: &S::State) -> Option<S::Shape> {
-        self.whole.shape(state)
+    fn stamp(&self, delta: &S::Delta) -> Option<u64> {
+        self.whole.stamp(delta)
     }
 
-    fn judge_each(&self, state: &S::State) -> Result<Witnesses, Breach> {
-        self.whole.judge_each(state)
+    fn restamped(&self, delta: &S::Delta, stamp: u64) -> S::Delta {
+        self.whole.restamped(delta, stamp)
+    }
+
+    fn next_stamp(&self, state: &S::State) -> u64 {
+        self.whole.next_stamp(state)
+    }
+
+    fn compete(&self, left: &S::Delta, right: &S::Delta) -> Competition {
+        self.whole.compete(left, right)
+    }
+
+    fn appearance(&self, state: &S::State) -> u64 {
+        self.whole.appearance(state)
     }
 
     fn name(&self) -> String {
@@ -45,6 +56,10 @@ impl<S: Semantics> Semantics for Restricted<S> {
 
     fn join(&self, state: &S::State, delta: &S::Delta) -> S::State {
         self.whole.join(state, delta)
+    }
+
+    fn join_all(&self, state: &S::State, deltas: &[&S::Delta]) -> S::State {
+        self.whole.join_all(state, deltas)
     }
 
     fn repair(&self, ours: &S::State, theirs: &S::State) -> Option<S::Delta> {

@@ -1,18 +1,13 @@
 //! One run of L2 and its report. `[spec: CHECK-6]` `[spec: CHECK-9]` `[spec: CHECK-10]`
 
 use super::space::{HAPPENINGS, Schedules};
-use super::{ScheduleBound, ScheduleModel, engine, trace};
+use super::{ScheduleBound, trace};
 use crate::progress::Progress;
-use crate::semantics::{Breach, Clause, Semantics};
+use crate::search::{COUNTEREXAMPLE_MAX, Findings, find_fault, search};
+use crate::semantics::{Clause, Semantics};
 use crate::trace::Trace;
-use crate::verdict::{
-    Evidence, PropertyKind, PropertyReport, RunReport, RunTrace, StateCounts, Verdict, collision_bound,
-};
-use stateright::{Checker, Model};
+use crate::verdict::{RunReport, RunTrace, StateCounts};
 use std::sync::Arc;
-
-/// The most schedules that the search for a shortest counterexample looks at.
-const COUNTEREXAMPLE_MAX: usize = 2_000_000;
 
 /// What this layer judges besides.
 const QUIESCENCE: [Clause; 2] = [
@@ -35,53 +30,36 @@ pub struct ScheduleRun<S> {
     pub focus: usize,
     /// How far it goes.
     pub bound: ScheduleBound,
+    /// Whether the second engine counts as well.
+    pub second_engine: bool,
 }
 
-impl<S: Semantics + 'static> ScheduleRun<S> {
+impl<S: Semantics> ScheduleRun<S> {
     /// Searches and reports.
     pub fn run(&self, progress: &Arc<Progress>) -> RunReport {
-        let model = ScheduleModel::new(self.semantics.clone(), self.bound, progress.clone());
-        let checker = model.checker().threads(1).spawn_dfs().join();
-        let (expanded, generated, cut) = checker.model().counts();
-        let unique = checker.unique_state_count() as u64;
-        let (breach, counts, happened) = checker.model().inspect(|schedules, fault| {
-            let (judged, diamonds) = schedules.judged();
-            let counts = StateCounts { unique, generated, judged, diamonds };
-            (fault.map(|fault| fault.breach.clone()), counts, schedules.happened)
-        });
-        // The tables are large: let them go before a counterexample is sought.
-        drop(checker);
-        let seen = self.witnesses(happened);
-        let evidence = Evidence {
-            violated: breach.is_some(),
-            cut,
-            unique,
-            expanded,
-            unseen: seen.iter().filter(|(_, seen)| !seen).count(),
+        let schedules = Schedules::new(self.semantics.clone(), self.bound);
+        let (schedules, found) = search(schedules, self.second_engine, progress);
+        let (judged, diamonds) = schedules.judged();
+        let findings = Findings {
+            nodes: "schedules",
+            clauses: self.semantics.clauses().into_iter().chain(QUIESCENCE).collect(),
+            seen: self.witnesses(schedules.happened),
+            states: StateCounts { judged, diamonds, ..StateCounts::default() },
+            breach: found.fault().map(|fault| fault.breach.clone()),
         };
-        let mut notes: Vec<String> =
-            breach.iter().map(|breach| format!("[{}] {}", breach.clause, breach.detail)).collect();
-        if cut {
-            notes.push(format!(
-                "stopped after {expanded} schedules and {:.0} s, before its end",
-                progress.seconds()
-            ));
-        }
-        let traces: Vec<RunTrace> =
-            breach.iter().filter_map(|_| self.counterexample()).map(RunTrace::from).collect();
-        RunReport {
+        // The tables are large: let them go before a counterexample is sought.
+        drop(schedules);
+        let run = RunReport {
             replicas: self.bound.everybody(),
             mutations: self.bound.mutations,
             focus: self.focus,
-            operations: self.operations(),
-            states: counts,
-            verdict: Verdict::of(evidence),
-            properties: self.properties(evidence, breach.as_ref(), &seen),
-            collision_bound: collision_bound(unique),
-            notes,
-            traces,
+            operations: self.semantics.steps(&self.semantics.initial(), 0).len(),
             ..RunReport::new(self.name.clone(), "L2", self.semantics.name(), progress.seconds())
-        }
+        };
+        let broken = findings.breach.is_some();
+        let report = found.report(findings, run);
+        let trace = if broken { self.counterexample() } else { None };
+        RunReport { traces: trace.map(RunTrace::from).into_iter().collect(), ..report }
     }
 
     /// What must have happened, given the bound.
@@ -94,47 +72,10 @@ impl<S: Semantics + 'static> ScheduleRun<S> {
         named.map(|((bit, name), _)| ((*name).into(), happened >> bit & 1 == 1)).collect()
     }
 
-    fn properties(
-        &self,
-        evidence: Evidence,
-        breach: Option<&Breach>,
-        seen: &[(String, bool)],
-    ) -> Vec<PropertyReport> {
-        let complete = evidence.complete() && breach.is_none();
-        let property = |clause: String, kind, verdict, claim: &str, what: &str| PropertyReport {
-            clause,
-            kind,
-            verdict,
-            claim: claim.into(),
-            what: what.into(),
-            trace: None,
-        };
-        let always = self.semantics.clauses().into_iter().chain(QUIESCENCE).map(|clause| {
-            let violated = breach.is_some_and(|breach| breach.clause == clause.id);
-            let verdict = Verdict::of(Evidence { violated, cut: !complete, unseen: 0, ..evidence });
-            property(clause.id.into(), PropertyKind::Always, verdict, clause.claim, clause.what)
-        });
-        let sometimes = seen.iter().map(|(witness, seen)| {
-            let verdict = match (seen, complete) {
-                (true, _) => Verdict::Exhaustive,
-                (false, true) => Verdict::Vacuous,
-                (false, false) => Verdict::Bounded,
-            };
-            property(witness.clone(), PropertyKind::Sometimes, verdict, "", "")
-        });
-        always.chain(sometimes).collect()
-    }
-
-    fn operations(&self) -> usize {
-        let initial = self.semantics.initial();
-        let mutations = self.semantics.mutations(&initial, 0);
-        mutations.iter().filter(|mutation| self.semantics.mutate(&initial, 0, mutation).is_some()).count()
-    }
-
     /// The shortest way to a violation.
     fn counterexample(&self) -> Option<Trace> {
         let mut schedules = Schedules::new(self.semantics.clone(), self.bound);
-        let found = engine::find_fault(&mut schedules, COUNTEREXAMPLE_MAX)?;
+        let found = find_fault(&mut schedules, COUNTEREXAMPLE_MAX)?;
         Some(trace::write(&mut schedules, &found))
     }
 }

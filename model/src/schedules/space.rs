@@ -3,8 +3,9 @@
 use super::state::{Event, Message, NO_ANSWER, Schedule};
 use super::{RESYNCHRONISATIONS_MAX, ScheduleBound};
 use crate::checked::INCARNATION;
+use crate::search::Space;
 use crate::semantics::{Breach, Semantics};
-use crate::tables::{DeltaId, NONE, StateId, Tables};
+use crate::tables::{DeltaId, StateId, Tables};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::Arc;
 
@@ -109,16 +110,13 @@ impl<S: Semantics> Schedules<S> {
         let moves = match self.tables.moves(&self.semantics, before, identity) {
             Ok(moves) => moves,
             Err(fault) => {
-                let mutations = self.semantics.mutations(&self.tables.state(before), identity);
-                let index = mutations.iter().position(|mutation| *mutation == fault.mutation);
-                let index = index.and_then(|index| u32::try_from(index).ok()).unwrap_or(NONE);
                 let delta = self.tables.intern_delta(fault.step.delta, 0);
-                let event = Event::Mutate { replica, index, delta };
+                let event = Event::Mutate { replica, delta };
                 return Err(ScheduleFault { breach: fault.breach, event: Some(event) });
             }
         };
         for step in moves.iter() {
-            let event = Event::Mutate { replica, index: step.index, delta: step.delta };
+            let event = Event::Mutate { replica, delta: step.delta };
             let mut next = *at;
             next.states[replica] = self.receive(before, step.delta, event)?;
             next.broadcast(replica, step.delta, self.bound.everybody());
@@ -251,5 +249,35 @@ impl<S: Semantics> Schedules<S> {
             }
         }
         Ok(())
+    }
+}
+
+impl<S: Semantics> Space for Schedules<S> {
+    type Node = Schedule;
+    type Event = Event;
+    type Fault = ScheduleFault;
+
+    fn start(&self) -> Schedule {
+        Self::start(self)
+    }
+
+    fn successors(&mut self, at: &Schedule, out: &mut Vec<(Event, Schedule)>) -> Found {
+        Self::successors(self, at, out)
+    }
+
+    fn judge(&mut self, at: &Schedule) -> Found {
+        Self::judge(self, at).map_err(|breach| ScheduleFault { breach, event: None })
+    }
+
+    fn depth(&self, at: &Schedule) -> usize {
+        at.pool().count()
+    }
+
+    fn states_judged(&self) -> u64 {
+        self.judged.len() as u64
+    }
+
+    fn witnessed(&self) -> usize {
+        self.tables.witnesses.count() + self.happened.count_ones() as usize
     }
 }

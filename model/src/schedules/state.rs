@@ -48,8 +48,6 @@ pub enum Event {
     Mutate {
         /// Who.
         replica: usize,
-        /// Which of its mutations in its state.
-        index: u32,
         /// What is broadcast.
         delta: DeltaId,
     },

@@ -1,19 +1,24 @@
 //! Schedules as traces.
 
-use super::engine::Counterexample;
 use super::space::Schedules;
 use super::state::{Event, Message, Schedule};
 use crate::checked::INCARNATION;
+use crate::search::Counterexample;
 use crate::semantics::Semantics;
 use crate::tables::{DeltaId, StateId};
 use crate::trace::{Act, TRACE_VERSION, Trace, TraceBreach, TraceStep};
 
 /// The trace of a counterexample. What is lost does not appear in it: it never arrives.
-pub(super) fn write<S: Semantics>(schedules: &mut Schedules<S>, found: &Counterexample) -> Trace {
+pub(super) fn write<S: Semantics>(
+    schedules: &mut Schedules<S>,
+    found: &Counterexample<Schedules<S>>,
+) -> Trace {
     let mut broadcasts = Vec::new();
     let mut senders = Vec::new();
     let mut steps = Vec::new();
-    for (before, event) in &found.events {
+    // An event that cannot be had without breaking a clause comes last.
+    let last = found.fault.event.map(|event| (found.end, event));
+    for (before, event) in found.events.iter().chain(&last) {
         if let Event::Mutate { replica, .. } = event {
             broadcasts.push((*replica, before.made(*replica)));
         }
@@ -51,15 +56,9 @@ fn step<S: Semantics>(
         format!("m{}", at.map_or(0, |at| at + 1))
     };
     let (replica, act, after) = match *event {
-        Event::Mutate { replica, index, delta } => {
-            let act = mutate_act(
-                schedules,
-                before,
-                replica,
-                index,
-                delta,
-                message_name(replica, before.made(replica)),
-            );
+        Event::Mutate { replica, delta } => {
+            let act =
+                mutate_act(schedules, before, replica, delta, message_name(replica, before.made(replica)));
             (replica, act, received(schedules, before, replica, delta))
         }
         Event::Deliver { replica, message, .. } => {
@@ -88,18 +87,16 @@ fn mutate_act<S: Semantics>(
     schedules: &Schedules<S>,
     before: &Schedule,
     replica: usize,
-    index: u32,
     delta: DeltaId,
     message: String,
 ) -> Act {
     let identity = replica + INCARNATION * usize::from(before.incarnations[replica]);
     let state = schedules.tables.state(before.states[replica]);
-    let mutations = schedules.semantics.mutations(&state, identity);
-    let mutation = mutations.get(index as usize);
+    let mutation = schedules.semantics.mutation_of(&state, identity, &schedules.tables.delta(delta));
     Act::Mutate {
         message,
-        text: mutation.map(ToString::to_string).unwrap_or_default(),
-        mutation: mutation.map(|mutation| schedules.semantics.mutation_json(mutation)).unwrap_or_default(),
+        text: mutation.as_ref().map(ToString::to_string).unwrap_or_default(),
+        mutation: mutation.map(|mutation| schedules.semantics.mutation_json(&mutation)).unwrap_or_default(),
         delta: schedules.semantics.delta_json(&schedules.tables.delta(delta)),
     }
 }
