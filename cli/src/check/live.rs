@@ -8,14 +8,20 @@ use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 const REDRAW: Duration = Duration::from_millis(200);
 /// How often a run that goes on is mentioned where there is no terminal.
 const MENTION_SECONDS: u64 = 15;
 
 /// Runs all jobs, `at_once` at a time; reports in the order of the jobs.
-pub(super) fn run_all(jobs: &[Box<dyn Job>], limits: Limits, at_once: usize) -> Vec<RunReport> {
+pub(super) fn run_all(
+    jobs: &[Box<dyn Job>],
+    limits: Limits,
+    total_seconds_max: f64,
+    at_once: usize,
+) -> Vec<RunReport> {
+    let started = Instant::now();
     let screen = std::io::stderr().is_terminal().then(MultiProgress::new);
     let next = AtomicUsize::new(0);
     let done: Mutex<Vec<(usize, RunReport)>> = Mutex::new(Vec::new());
@@ -23,6 +29,8 @@ pub(super) fn run_all(jobs: &[Box<dyn Job>], limits: Limits, at_once: usize) -> 
         for _ in 0..at_once.min(jobs.len()) {
             scope.spawn(|| {
                 while let Some((at, job)) = take(&next, jobs) {
+                    let left = (total_seconds_max - started.elapsed().as_secs_f64()).max(0.0);
+                    let limits = Limits { seconds_max: limits.seconds_max.min(left), ..limits };
                     let report = run_one(job, limits, screen.as_ref(), (at + 1, jobs.len()));
                     done.lock().unwrap_or_else(PoisonError::into_inner).push((at, report));
                 }

@@ -72,6 +72,9 @@ pub(crate) struct Arguments {
     /// Stops a run after this many seconds; its verdict is then `bounded`
     #[arg(long, default_value_t = f64::INFINITY)]
     seconds_max: f64,
+    /// Stops whatever still runs after this many seconds in all; what had not begun is `bounded` as well
+    #[arg(long, default_value_t = f64::INFINITY)]
+    total_seconds_max: f64,
     /// Stops a run after this many states; its verdict is then `bounded`
     #[arg(long, default_value_t = u64::MAX, hide_default_value = true)]
     states_max: u64,
@@ -131,7 +134,7 @@ impl Arguments {
         };
         let limits = Limits { states_max: self.states_max, seconds_max: self.seconds_max };
         let started = std::time::Instant::now();
-        let mut runs = live::run_all(&jobs, limits, usize::from(self.jobs));
+        let mut runs = live::run_all(&jobs, limits, self.total_seconds_max, usize::from(self.jobs));
         runs.sort_by_key(|run| LAYERS.iter().position(|layer| *layer == run.layer));
         let traces = write_traces(&mut runs, &self.traces);
         let worst = runs.iter().map(|run| run.verdict).max().unwrap_or(Verdict::Vacuous);

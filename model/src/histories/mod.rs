@@ -18,7 +18,7 @@ pub use judge::Fault;
 pub use run::HistoryRun;
 pub use symmetry::Permutations;
 
-use crate::search::Space;
+use crate::search::{Space, hash_numbers};
 use crate::semantics::{Breach, Semantics};
 use crate::tables::{DeltaId, Move, NONE, StateId, StepFault, Tables};
 use judge::Judge;
@@ -57,14 +57,10 @@ pub struct History {
     pub concrete: bool,
 }
 
-/// Word by word and not number by number: most of a search is hashing.
 impl Hash for History {
     fn hash<H: Hasher>(&self, hasher: &mut H) {
-        for row in self.deltas.iter().chain([&self.last]) {
-            for pair in row.chunks_exact(2) {
-                hasher.write_u64(u64::from(pair[0]) << 32 | u64::from(pair[1]));
-            }
-        }
+        hash_numbers(self.deltas.as_flattened(), hasher);
+        hash_numbers(&self.last, hasher);
         hasher.write_u8(u8::from(self.concrete));
     }
 }

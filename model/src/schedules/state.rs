@@ -2,13 +2,15 @@
 
 use super::RESYNCHRONISATIONS_MAX;
 use crate::histories::{MUTATIONS_MAX, REPLICAS_MAX};
+use crate::search::hash_numbers;
 use crate::tables::{DeltaId, NONE, StateId};
+use std::hash::{Hash, Hasher};
 
 /// The states of all replicas, what was broadcast, and which copies are still under way.
 ///
 /// Of a copy that is no longer under way it does not matter whether it was delivered or lost: the
 /// receiver's state says so.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct Schedule {
     /// Per replica, its state.
     pub states: [StateId; REPLICAS_MAX],
@@ -81,6 +83,19 @@ pub enum Event {
         /// Who answers.
         from: usize,
     },
+}
+
+impl Hash for Schedule {
+    fn hash<H: Hasher>(&self, hasher: &mut H) {
+        hash_numbers(&self.states, hasher);
+        hash_numbers(self.deltas.as_flattened(), hasher);
+        for &(to, delta) in &self.answers {
+            hash_numbers(&[u32::from(to), delta], hasher);
+        }
+        hasher.write_u32(u32::from_le_bytes(self.incarnations));
+        hasher.write_u8(self.resynchronisations);
+        hasher.write_u64(self.in_flight);
+    }
 }
 
 fn bit(author: usize, made: usize, to: usize) -> u64 {

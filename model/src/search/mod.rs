@@ -16,7 +16,7 @@ pub use plain::{Counterexample, Counts, all, count, find_fault};
 pub(crate) use run::{COUNTEREXAMPLE_MAX, Findings, search};
 
 use std::fmt::Debug;
-use std::hash::Hash;
+use std::hash::{Hash, Hasher};
 
 /// What an engine needs of a space.
 pub trait Space: Send + 'static {
@@ -54,4 +54,12 @@ pub trait Space: Send + 'static {
 
     /// How many different things have been witnessed so far.
     fn witnessed(&self) -> usize;
+}
+
+/// Hashes numbers two at a time: most of a search is hashing.
+pub(crate) fn hash_numbers(numbers: &[u32], hasher: &mut impl Hasher) {
+    for pair in numbers.chunks(2) {
+        let second = pair.get(1).copied().unwrap_or_default();
+        hasher.write_u64(u64::from(pair[0]) << 32 | u64::from(second));
+    }
 }
