@@ -1,14 +1,16 @@
 //! The graph invariants I1 to I5 and the claims about views, as checks that properties, tests and fuzzers
 //! all call. `[spec: INV-1]` to `[spec: INV-5]`
 //!
-//! They judge a finished [`View`] by its public face alone and share no code with what built it.
+//! They judge whatever [`Shows`] a state by that face alone: a finished [`View`](crate::View), or what another
+//! implementation shows. They share no code with what built it.
 
 use crate::dictionary::Dictionary;
 use crate::dot::{Dot, EdgeId, VertexId};
-use crate::record::{Edge, EdgeKey, Name, Record};
+use crate::mutation::is_root_name;
+use crate::record::{Edge, EdgeKey, Name, Record, Write};
 use crate::state::State;
 use crate::value::ValueType;
-use crate::view::{Placement, Repair, View};
+use crate::view::{Placement, Repair, Shows};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -86,6 +88,22 @@ pub enum Violation {
         /// The other.
         second: EdgeId,
     },
+    /// A name finds another vertex than the oldest of that name.
+    #[error("[VIEW-7] the name {name:?} does not find {expected}, the oldest that has it")]
+    Misnamed {
+        /// The name.
+        name: Name,
+        /// Whom it should find.
+        expected: VertexId,
+    },
+    /// A lesser write is shown before a greater one.
+    #[error("[VIEW-8] {winner} is shown, but {greater} is the greater write")]
+    Outranked {
+        /// The write shown first.
+        winner: Dot,
+        /// A greater one.
+        greater: Dot,
+    },
     /// V2: a repair where nothing is broken.
     #[error("[VIEW-10] nothing is broken, but the view reports: {repair}")]
     Needless {
@@ -100,19 +118,22 @@ pub enum Violation {
     },
 }
 
-/// I1 to I5 and one claim shown per register. `[property: INV-1]` to `[property: INV-6]`
-pub fn check_view(view: &View<'_>) -> Result<(), Violation> {
+/// I1 to I5, one claim shown per register, and the right one found by each name and in each attribute.
+/// `[property: INV-1]` to `[property: INV-6]`
+pub fn check_view(view: &impl Shows) -> Result<(), Violation> {
     check_no_dangling(view)?;
     check_no_self_loop(view)?;
     check_tree(view)?;
     check_paths(view)?;
     check_attributes(view)?;
-    check_registers(view)
+    check_registers(view)?;
+    check_names(view)?;
+    check_winners(view)
 }
 
 /// I1: every vertex has a path to the root, over shown edges and the links that the repairs report,
 /// whatever their direction. `[property: INV-1]`
-pub fn check_paths(view: &View<'_>) -> Result<(), Violation> {
+pub fn check_paths(view: &impl Shows) -> Result<(), Violation> {
     let edges = view.edges().iter().map(|shown| (shown.edge.from, shown.edge.to));
     let links = view.repairs().iter().filter_map(|repair| match repair {
         Repair::Detached { vertex } | Repair::Reattached { vertex } => Some((VertexId::ROOT, *vertex)),
@@ -146,11 +167,11 @@ fn first_unreached(
 }
 
 /// I2: every shown edge and write belongs to elements of the graph. `[property: INV-2]`
-pub fn check_no_dangling(view: &View<'_>) -> Result<(), Violation> {
+pub fn check_no_dangling(view: &impl Shows) -> Result<(), Violation> {
     let present = |vertex: VertexId| vertex.is_root() || view.state().vertex(vertex.0).is_some();
     for shown in view.edges() {
         for vertex in [shown.edge.from, shown.edge.to] {
-            if !present(vertex) || !view.has_vertex(vertex) {
+            if !present(vertex) || view.vertices().binary_search(&vertex).is_err() {
                 return Err(Violation::Dangling { edge: shown.id, vertex });
             }
         }
@@ -167,7 +188,7 @@ pub fn check_no_dangling(view: &View<'_>) -> Result<(), Violation> {
 
 /// I3: the shown `RT` edges and the reported detachments form one tree rooted at the root, with unique
 /// parents and no cycle. `[property: INV-3]`
-pub fn check_tree(view: &View<'_>) -> Result<(), Violation> {
+pub fn check_tree(view: &impl Shows) -> Result<(), Violation> {
     let parents = unique_parents(view)?;
     let is_detached = |vertex| {
         view.repairs().iter().any(|repair| matches!(repair, Repair::Detached { vertex: v } if *v == vertex))
@@ -192,7 +213,7 @@ pub fn check_tree(view: &View<'_>) -> Result<(), Violation> {
 }
 
 /// Child, parent and edge of each shown `RT` edge, by child.
-fn unique_parents(view: &View<'_>) -> Result<Vec<(VertexId, VertexId, EdgeId)>, Violation> {
+fn unique_parents(view: &impl Shows) -> Result<Vec<(VertexId, VertexId, EdgeId)>, Violation> {
     let kinematic = view.edges().iter().filter(|shown| shown.edge.is_rt());
     let mut parents: Vec<_> = kinematic.map(|shown| (shown.edge.to, shown.edge.from, shown.id)).collect();
     parents.sort_unstable();
@@ -234,7 +255,7 @@ fn first_unrooted(parents: &[(VertexId, VertexId)], is_top: impl Fn(VertexId) ->
 }
 
 /// I4: no edge joins a vertex to itself. `[property: INV-4]`
-pub fn check_no_self_loop(view: &View<'_>) -> Result<(), Violation> {
+pub fn check_no_self_loop(view: &impl Shows) -> Result<(), Violation> {
     match view.edges().iter().find(|shown| shown.edge.from == shown.edge.to) {
         Some(shown) => Err(Violation::SelfLoop { edge: shown.id, vertex: shown.edge.to }),
         None => Ok(()),
@@ -242,7 +263,7 @@ pub fn check_no_self_loop(view: &View<'_>) -> Result<(), Violation> {
 }
 
 /// I5: every shown attribute is declared, with the type of its value. `[property: INV-5]`
-pub fn check_attributes(view: &View<'_>) -> Result<(), Violation> {
+pub fn check_attributes(view: &impl Shows) -> Result<(), Violation> {
     for (_, write) in view.writes() {
         let given = write.value.value_type();
         if !view.dictionary().allows_attribute(&write.name, given) {
@@ -253,7 +274,7 @@ pub fn check_attributes(view: &View<'_>) -> Result<(), Violation> {
 }
 
 /// One edge per key, and one per functional label of a source. `[property: INV-6]`
-pub fn check_registers(view: &View<'_>) -> Result<(), Violation> {
+pub fn check_registers(view: &impl Shows) -> Result<(), Violation> {
     let mut shown: Vec<_> =
         view.edges().iter().map(|shown| (register_of(shown.edge, view.dictionary()), shown)).collect();
     shown.sort_unstable_by(|l, r| l.0.cmp(&r.0));
@@ -266,6 +287,35 @@ pub fn check_registers(view: &View<'_>) -> Result<(), Violation> {
     }
 }
 
+/// A name finds the oldest of the vertices that have it: the one of least rank. `[property: VIEW-7]`
+pub fn check_names(view: &impl Shows) -> Result<(), Violation> {
+    let state = view.state();
+    let held = view.vertices().iter().filter_map(|&id| Some((state.vertex(id.0)?, id)));
+    let mut named: Vec<(&Name, u64, VertexId)> =
+        held.map(|(vertex, id)| (&vertex.name, vertex.stamp, id)).collect();
+    named.sort_unstable();
+    for namesakes in named.chunk_by(|l, r| l.0 == r.0) {
+        let [(name, _, oldest), ..] = namesakes else { continue };
+        let expected = if is_root_name(name) { VertexId::ROOT } else { *oldest };
+        if view.vertex_by_name(name) != Some(expected) {
+            return Err(Violation::Misnamed { name: (*name).clone(), expected });
+        }
+    }
+    Ok(())
+}
+
+/// The write shown first of an attribute is the greatest. `[property: VIEW-8]`
+pub fn check_winners(view: &impl Shows) -> Result<(), Violation> {
+    let writes = view.writes();
+    let by_rank = |pair: &[(Dot, &Write)]| {
+        let [(winner, left), (greater, right)] = pair else { return None };
+        let is_fault = (left.target, &left.name) == (right.target, &right.name)
+            && (left.stamp, winner) < (right.stamp, greater);
+        is_fault.then_some(Violation::Outranked { winner: *winner, greater: *greater })
+    };
+    writes.windows(2).find_map(by_rank).map_or(Ok(()), Err)
+}
+
 /// What a symbolic edge competes on: its source, label and, unless that is functional, target.
 fn register_of<'e>(edge: &'e Edge, dictionary: &Dictionary) -> (VertexId, &'e str, Option<VertexId>) {
     (edge.from, &edge.label, (!dictionary.is_functional(&edge.label)).then_some(edge.to))
@@ -273,7 +323,7 @@ fn register_of<'e>(edge: &'e Edge, dictionary: &Dictionary) -> (VertexId, &'e st
 
 /// V2: repairs are reported exactly where the live claims, taken as they are, break something.
 /// `[property: VIEW-9]` `[property: VIEW-10]`
-pub fn check_repairs(view: &View<'_>) -> Result<(), Violation> {
+pub fn check_repairs(view: &impl Shows) -> Result<(), Violation> {
     match (broken_claim(view), view.repairs()) {
         (None, [repair, ..]) => Err(Violation::Needless { repair: repair.clone() }),
         (Some(what), []) => Err(Violation::Silent { what }),
@@ -282,7 +332,7 @@ pub fn check_repairs(view: &View<'_>) -> Result<(), Violation> {
 }
 
 /// What the live claims break when nothing is repaired, judged from the records alone.
-fn broken_claim(view: &View<'_>) -> Option<&'static str> {
+fn broken_claim(view: &impl Shows) -> Option<&'static str> {
     let (state, dictionary) = (view.state(), view.dictionary());
     let lives = |vertex: VertexId| vertex.is_root() || state.vertex(vertex.0).is_some();
     let joins = |edge: &&Edge| edge.from != edge.to && lives(edge.from) && lives(edge.to);

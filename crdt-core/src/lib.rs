@@ -63,5 +63,5 @@ pub use mutation::*;
 pub use record::{Edge, EdgeKey, Name, RT, Rank, Record, Vertex, Write};
 pub use state::{Delta, State};
 pub use value::{Value, ValueType};
-pub use view::{Placement, Repair, Rule, ShownEdge, View, view};
+pub use view::{Placement, Repair, Rule, ShownEdge, Shows, View, view};
 pub use wellformed::{Malformed, check_well_formed};

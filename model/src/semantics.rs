@@ -174,7 +174,7 @@ const fn clause(id: &'static str, claim: &'static str, what: &'static str) -> Cl
 }
 
 /// What every semantics must keep.
-const CLAUSES: [Clause; 21] = [
+const CLAUSES: [Clause; 23] = [
     clause("JOIN-3", "L3", "the same deltas in any order, once or twice, lead to the same state"),
     clause("JOIN-4", "L2", "deliveries and mutations only add to what was seen"),
     clause("MUT-0", "L2", "a mutation's state is the old one joined with its delta"),
@@ -190,6 +190,8 @@ const CLAUSES: [Clause; 21] = [
     clause("INV-4", "V1", "no edge joins a vertex to itself"),
     clause("INV-5", "V1", "shown attributes are declared and typed"),
     clause("INV-6", "V1", "one edge per key and per functional label"),
+    clause("VIEW-7", "V1", "a name finds the oldest vertex that has it"),
+    clause("VIEW-8", "V1", "the greatest write of an attribute is shown"),
     clause("VIEW-9", "V1", "what is broken is repaired and reported"),
     clause("VIEW-10", "V2", "what is not broken is shown as it is"),
     clause("VIEW-12", "V2", "no local mutation makes a repair where there was none"),

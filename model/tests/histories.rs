@@ -33,8 +33,8 @@ fn checked(run: &HistoryRun<Checked>, limits: Limits) -> RunReport {
 /// Every history within the bound.
 fn all_histories(run: &HistoryRun<Checked>, symmetry: bool) -> (Histories<Checked>, BTreeSet<History>) {
     let mut histories = Histories::new(run.semantics.clone(), run.bound, symmetry);
-    let all = search::all(&mut histories).unwrap_or_else(|fault| panic!("{:?}", fault.breach()));
-    (histories, all.into_iter().collect())
+    let all = search::all(&mut histories).map_err(|fault| fault.breach().clone());
+    (histories, all.unwrap().into_iter().collect())
 }
 
 /// The orbits of the histories with symmetry are together exactly as many as the histories without it.
@@ -160,7 +160,7 @@ fn differential_shapes_save_nothing_that_matters() {
         let [saving, plain] = [true, false].map(|shapes| {
             let mut histories = Histories::new(run.semantics.clone(), run.bound, true);
             histories.set_shapes(shapes, 1);
-            let all = search::all(&mut histories).unwrap_or_else(|fault| panic!("{:?}", fault.breach()));
+            let all = search::all(&mut histories).map_err(|fault| fault.breach().clone()).unwrap();
             for history in &all {
                 histories.judge(history).unwrap();
             }

@@ -5,11 +5,12 @@ use dsr_model::verdict::{PropertyKind, RunReport, Verdict};
 use std::collections::BTreeMap;
 
 /// What every run takes for granted; see `spec/network.md`.
-const ASSUMED: [&str; 4] = [
+const ASSUMED: [&str; 5] = [
     "replicas start from the same graph and use the same dictionary",
     "authors follow the specification: no dot is used twice, nobody forges deltas",
     "deltas arrive whole; they may be lost, repeated and reordered without limit",
     "L1 fuses deliveries into mutations; that deltas commute is checked in every delivered subset, not assumed",
+    "L1 judges sets of deltas once that differ in nothing that counts; that is tried on a sample of them (CHECK-11)",
 ];
 
 /// What no run shows.
@@ -37,15 +38,15 @@ fn add_runs(text: &mut String, runs: &[RunReport]) {
     add(
         text,
         format_args!(
-            "{:<8} {:<width$} {:>5} {:>4} {:>10} {:>11} {:>11} {:>7}  verdict\n",
-            "layer", "run", "focus", "ops", "unique", "generated", "judged", "s"
+            "{:<8} {:<width$} {:>5} {:>4} {:>10} {:>11} {:>9} {:>6} {:>7}  verdict\n",
+            "layer", "run", "focus", "ops", "unique", "generated", "judged", "s", "1000/s"
         ),
     );
     for run in runs {
         add(
             text,
             format_args!(
-                "{:<8} {:<width$} {:>5} {:>4} {:>10} {:>11} {:>11} {:>7.1}  {}{}\n",
+                "{:<8} {:<width$} {:>5} {:>4} {:>10} {:>11} {:>9} {:>6.1} {:>7}  {}{}\n",
                 run.layer,
                 run.name,
                 or_dash(run.focus),
@@ -54,6 +55,7 @@ fn add_runs(text: &mut String, runs: &[RunReport]) {
                 run.states.generated,
                 run.states.judged,
                 run.seconds,
+                rate(run),
                 run.verdict,
                 if run.second_engine.is_some() { ", both engines" } else { "" },
             ),
@@ -137,6 +139,17 @@ fn add_clauses(text: &mut String, runs: &[RunReport]) {
     }
 }
 
+/// States that the first engine found in a second, in thousands, where there were enough to tell.
+fn rate(run: &RunReport) -> String {
+    const ENOUGH: u64 = 10_000;
+    if !matches!(&*run.layer, "L1" | "L2") || run.states.unique < ENOUGH {
+        return "-".into();
+    }
+    #[expect(clippy::cast_precision_loss, reason = "a rate to look at")]
+    let unique = run.states.unique as f64;
+    format!("{:.0}", unique / run.search_seconds / 1000.0)
+}
+
 fn add_witnesses(text: &mut String, runs: &[RunReport]) {
     let mut seen: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
     for run in runs {
@@ -169,7 +182,6 @@ fn add_traces(text: &mut String, runs: &[RunReport]) {
 fn add_box(text: &mut String, runs: &[RunReport], verdict: Verdict, seconds: f64) {
     let unique: u64 = runs.iter().map(|run| run.states.unique).sum();
     let judged: u64 = runs.iter().map(|run| run.states.judged).sum();
-    let collision: f64 = runs.iter().map(|run| run.collision_bound).sum();
     add(text, format_args!("\n── verdict: {verdict} ──────────────────────────────────────────────\n"));
     add(
         text,
@@ -178,12 +190,8 @@ fn add_box(text: &mut String, runs: &[RunReport], verdict: Verdict, seconds: f64
             runs.len()
         ),
     );
-    add(
-        text,
-        format_args!(
-            "a fingerprint collision may have hidden a state with a chance of at most {collision:.1e}\n"
-        ),
-    );
+    add_histories(text, runs);
+    add_engines(text, runs);
     add(text, "assumed:\n");
     for line in ASSUMED {
         add(text, format_args!("  · {line}\n"));
@@ -191,5 +199,37 @@ fn add_box(text: &mut String, runs: &[RunReport], verdict: Verdict, seconds: f64
     add(text, "not checked:\n");
     for line in NOT_CHECKED {
         add(text, format_args!("  · {line}\n"));
+    }
+}
+
+/// What the judged states of L1 stand for.
+fn add_histories(text: &mut String, runs: &[RunReport]) {
+    let sum = |count: fn(&RunReport) -> u64| -> u64 {
+        runs.iter().filter(|run| run.layer == "L1").map(count).sum()
+    };
+    let subsets = sum(|run| run.states.subsets);
+    if subsets > 0 {
+        let (judged, sampled) = (sum(|run| run.states.judged), sum(|run| run.states.sampled));
+        let line = format!(
+            "L1: {subsets} delivered subsets of histories have {judged} shapes; each was judged, and {sampled} more to try that\n"
+        );
+        add(text, line);
+    }
+}
+
+/// Whether every count was made twice, and what that leaves open.
+fn add_engines(text: &mut String, runs: &[RunReport]) {
+    let searched = runs.iter().filter(|run| matches!(&*run.layer, "L1" | "L2"));
+    let (twice, once): (Vec<_>, Vec<_>) = searched.partition(|run| run.second_engine.is_some());
+    if !twice.is_empty() {
+        add(text, format_args!("both engines agree on the counts of {} runs\n", twice.len()));
+    }
+    if !once.is_empty() {
+        let chance: f64 = once.iter().map(|run| run.collision_bound).sum();
+        let line = format!(
+            "{} runs by one engine: a fingerprint collision may have hidden a state with a chance of at most {chance:.1e}\n",
+            once.len()
+        );
+        add(text, line);
     }
 }

@@ -15,10 +15,12 @@ mod attributes;
 mod paths;
 mod registers;
 mod repair;
+mod shows;
 mod tree;
 mod union_find;
 
 pub use repair::{Repair, Rule};
+pub use shows::Shows;
 pub use tree::Placement;
 
 use crate::dictionary::Dictionary;

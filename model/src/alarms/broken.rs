@@ -1,9 +1,8 @@
 //! A semantics broken in one place: `dsr-core` with one [`Flaw`].
 
 use super::shown::Shown;
-use super::shown_judge::judge_shown;
 use crate::algebra::{Algebra, Family, core_universe};
-use crate::checked::{Act, Checked, replica_id};
+use crate::checked::{Act, Checked, judge_shown, replica_id};
 use crate::semantics::{Breach, Competition, Judged, Semantics, Step};
 use dsr_core::{Author, Delta, Mutation, State, View, delta_for, digest, view};
 use std::fmt::Debug;
@@ -57,7 +56,7 @@ pub trait Flaw: Send + Sync + Debug {
     }
 
     /// What replica `here` shows.
-    fn show(&self, view: &View<'_>, here: usize) -> Shown {
+    fn show<'s>(&self, view: &View<'s>, here: usize) -> Shown<'s> {
         let _ = here;
         Shown::of(view)
     }
@@ -137,7 +136,7 @@ impl Semantics for Broken {
         if shown[0] != shown[1] {
             return Err(Breach::new("VIEW-1", "two replicas show one state differently"));
         }
-        judge_shown(&shown[0], state, &self.core.dictionary)?;
+        judge_shown(&shown[0])?;
         Ok(self.flaw.judged(judged))
     }
 

@@ -13,7 +13,6 @@ mod resync;
 mod run;
 mod shapes;
 mod shown;
-mod shown_judge;
 mod subject;
 mod views;
 

@@ -1,66 +1,92 @@
-//! What a replica shows its users, as plain data, so that a flaw can show something else.
+//! What a replica shows its users, so that a flaw can show something else. It is judged by the core's own
+//! judges, as the core's view is.
 
-use dsr_core::{Dot, Edge, EdgeId, Name, Record, Repair, State, VertexId, View};
-use std::collections::{BTreeMap, BTreeSet};
+use dsr_core::{
+    Dictionary, Dot, EdgeId, Name, Placement, Record, Repair, ShownEdge, Shows, State, VertexId, View, Write,
+};
+use std::collections::BTreeMap;
 
 /// A graph as users see it.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Shown {
-    /// The vertices, the root included.
-    pub vertices: BTreeSet<VertexId>,
+pub struct Shown<'s> {
+    state: &'s State,
+    dictionary: &'s Dictionary,
+    vertices: Vec<VertexId>,
+    placements: BTreeMap<VertexId, Placement>,
     /// The edges shown.
-    pub edges: BTreeMap<EdgeId, Edge>,
-    /// The edges reported as hidden.
-    pub hidden: BTreeSet<EdgeId>,
-    /// The vertices reported as detached or reattached: they hang from the root by repair.
-    pub hung: BTreeSet<VertexId>,
+    pub edges: Vec<ShownEdge<'s>>,
     /// The vertex that each name finds.
     pub names: BTreeMap<Name, VertexId>,
-    /// The winning write of each attribute.
-    pub attributes: BTreeMap<(Dot, Name), Dot>,
+    /// The writes shown, by target and name, the winner of each first.
+    pub writes: Vec<(Dot, &'s Write)>,
+    /// What is reported.
+    pub repairs: Vec<Repair>,
 }
 
-impl Shown {
+impl<'s> Shown<'s> {
     /// What the core shows.
-    pub fn of(view: &View<'_>) -> Self {
-        let mut hidden = BTreeSet::new();
-        let mut hung = BTreeSet::new();
-        for repair in view.repairs() {
-            match repair {
-                Repair::Superseded { hidden: edge, .. } | Repair::CycleBroken { hidden: edge } => {
-                    hidden.insert(*edge);
-                }
-                Repair::Detached { vertex } | Repair::Reattached { vertex } => {
-                    hung.insert(*vertex);
-                }
-                Repair::NameClash { .. } | Repair::Undeclared { .. } => {}
-            }
-        }
-        let vertices: BTreeSet<VertexId> = view.vertices().iter().copied().collect();
+    pub fn of(view: &View<'s>) -> Self {
+        let vertices = view.vertices().to_vec();
         let records = vertices.iter().filter_map(|&vertex| view.vertex(vertex));
         let names = records
             .filter_map(|vertex| Some((vertex.name.clone(), view.vertex_by_name(&vertex.name)?)))
             .collect();
-        let registers = view.writes().iter().map(|(_, write)| (write.target, write.name.clone()));
-        let attributes = registers
-            .filter_map(|(target, name)| Some(((target, name.clone()), view.attribute(target, &name)?.0)))
-            .collect();
-        let edges = view.edges().iter().map(|shown| (shown.id, shown.edge.clone())).collect();
-        Self { vertices, edges, hidden, hung, names, attributes }
+        let placed = vertices.iter().filter_map(|&vertex| Some((vertex, view.placement(vertex)?)));
+        Self {
+            state: view.state(),
+            dictionary: view.dictionary(),
+            placements: placed.collect(),
+            vertices,
+            edges: view.edges().to_vec(),
+            names,
+            writes: view.writes().to_vec(),
+            repairs: view.repairs().to_vec(),
+        }
     }
 
     /// Shows an edge that was hidden.
-    pub fn unhide(&mut self, state: &State, edge: EdgeId) {
-        if let Some(Record::Edge(record)) = state.get(edge.0) {
-            self.hidden.remove(&edge);
-            self.edges.insert(edge, record.clone());
+    pub fn unhide(&mut self, edge: EdgeId) {
+        if let Some(Record::Edge(record)) = self.state.get(edge.0) {
+            self.edges.push(ShownEdge { id: edge, edge: record });
         }
     }
 
     /// Hides an edge that was shown.
     pub fn hide(&mut self, edge: EdgeId) {
-        if self.edges.remove(&edge).is_some() {
-            self.hidden.insert(edge);
-        }
+        self.edges.retain(|shown| shown.id != edge);
+    }
+}
+
+impl Shows for Shown<'_> {
+    fn state(&self) -> &State {
+        self.state
+    }
+
+    fn dictionary(&self) -> &Dictionary {
+        self.dictionary
+    }
+
+    fn vertices(&self) -> &[VertexId] {
+        &self.vertices
+    }
+
+    fn edges(&self) -> &[ShownEdge<'_>] {
+        &self.edges
+    }
+
+    fn placement(&self, vertex: VertexId) -> Option<Placement> {
+        self.placements.get(&vertex).copied()
+    }
+
+    fn vertex_by_name(&self, name: &str) -> Option<VertexId> {
+        self.names.get(name).copied()
+    }
+
+    fn writes(&self) -> &[(Dot, &Write)] {
+        &self.writes
+    }
+
+    fn repairs(&self) -> &[Repair] {
+        &self.repairs
     }
 }

@@ -3,18 +3,18 @@
 use super::broken::Flaw;
 use super::shown::Shown;
 use crate::checked::replica_id;
-use dsr_core::{EdgeId, Record, Repair, Rule, View};
+use dsr_core::{EdgeId, Record, Repair, Rule, ShownEdge, View};
 
 /// Kinematic claims are shown without looking for cycles.
 #[derive(Debug)]
 pub(super) struct NoCycleCheck;
 
 impl Flaw for NoCycleCheck {
-    fn show(&self, view: &View<'_>, _here: usize) -> Shown {
+    fn show<'s>(&self, view: &View<'s>, _here: usize) -> Shown<'s> {
         let mut shown = Shown::of(view);
         for repair in view.repairs() {
             if let Repair::CycleBroken { hidden } = repair {
-                shown.unhide(view.state(), *hidden);
+                shown.unhide(*hidden);
             }
         }
         shown
@@ -26,7 +26,7 @@ impl Flaw for NoCycleCheck {
 pub(super) struct NewestName;
 
 impl Flaw for NewestName {
-    fn show(&self, view: &View<'_>, _here: usize) -> Shown {
+    fn show<'s>(&self, view: &View<'s>, _here: usize) -> Shown<'s> {
         let mut shown = Shown::of(view);
         for (name, found) in &mut shown.names {
             let holders = view
@@ -46,10 +46,10 @@ impl Flaw for NewestName {
 pub(super) struct FunctionalNotRepaired;
 
 impl Flaw for FunctionalNotRepaired {
-    fn show(&self, view: &View<'_>, _here: usize) -> Shown {
+    fn show<'s>(&self, view: &View<'s>, _here: usize) -> Shown<'s> {
         let mut shown = Shown::of(view);
         for (hidden, _) in functional(view) {
-            shown.unhide(view.state(), hidden);
+            shown.unhide(hidden);
         }
         shown
     }
@@ -60,12 +60,12 @@ impl Flaw for FunctionalNotRepaired {
 pub(super) struct OwnClaimWins;
 
 impl Flaw for OwnClaimWins {
-    fn show(&self, view: &View<'_>, here: usize) -> Shown {
+    fn show<'s>(&self, view: &View<'s>, here: usize) -> Shown<'s> {
         let mut shown = Shown::of(view);
         let own = functional(view).filter(|(hidden, _)| hidden.0.replica == replica_id(here));
         for (hidden, winner) in own {
             shown.hide(winner);
-            shown.unhide(view.state(), hidden);
+            shown.unhide(hidden);
         }
         shown
     }
@@ -76,13 +76,13 @@ impl Flaw for OwnClaimWins {
 pub(super) struct PendingShown;
 
 impl Flaw for PendingShown {
-    fn show(&self, view: &View<'_>, _here: usize) -> Shown {
+    fn show<'s>(&self, view: &View<'s>, _here: usize) -> Shown<'s> {
         let mut shown = Shown::of(view);
         for (dot, record) in view.state().records() {
             if let Record::Edge(edge) = record
                 && !(view.has_vertex(edge.from) && view.has_vertex(edge.to))
             {
-                shown.edges.insert(EdgeId(dot), edge.clone());
+                shown.edges.push(ShownEdge { id: EdgeId(dot), edge });
             }
         }
         shown
@@ -94,13 +94,9 @@ impl Flaw for PendingShown {
 pub(super) struct NotReattached;
 
 impl Flaw for NotReattached {
-    fn show(&self, view: &View<'_>, _here: usize) -> Shown {
+    fn show<'s>(&self, view: &View<'s>, _here: usize) -> Shown<'s> {
         let mut shown = Shown::of(view);
-        for repair in view.repairs() {
-            if let Repair::Reattached { vertex } = repair {
-                shown.hung.remove(vertex);
-            }
-        }
+        shown.repairs.retain(|repair| !matches!(repair, Repair::Reattached { .. }));
         shown
     }
 }
@@ -110,12 +106,9 @@ impl Flaw for NotReattached {
 pub(super) struct FirstWrite;
 
 impl Flaw for FirstWrite {
-    fn show(&self, view: &View<'_>, _here: usize) -> Shown {
+    fn show<'s>(&self, view: &View<'s>, _here: usize) -> Shown<'s> {
         let mut shown = Shown::of(view);
-        for ((target, name), winner) in &mut shown.attributes {
-            let writes = view.attribute_writes(*target, name);
-            *winner = writes.iter().map(|(dot, _)| *dot).min().unwrap_or(*winner);
-        }
+        shown.writes.sort_by_key(|(dot, write)| (write.target, write.name.clone(), *dot));
         shown
     }
 }

@@ -9,7 +9,7 @@ use crate::semantics::{Breach, Competition, Judged, Semantics, Step, Witnesses};
 use alphabet::Alphabet;
 use dsr_core::invariant::{Violation, check_repairs, check_view};
 use dsr_core::{
-    Author, Delta, Dictionary, Mutation, MutationKind, Repair, ReplicaId, Rule, State, View,
+    Author, Delta, Dictionary, Mutation, MutationKind, Repair, ReplicaId, Rule, Shows, State, View,
     check_well_formed, delta_for, digest, view,
 };
 use std::fmt;
@@ -103,6 +103,8 @@ fn breach(violation: &Violation) -> Breach {
         Violation::SelfLoop { .. } => "INV-4",
         Violation::Undeclared { .. } => "INV-5",
         Violation::TwoShown { .. } => "INV-6",
+        Violation::Misnamed { .. } => "VIEW-7",
+        Violation::Outranked { .. } => "VIEW-8",
         Violation::Needless { .. } => "VIEW-10",
         Violation::Silent { .. } => "VIEW-9",
         _ => "INV",
@@ -110,12 +112,17 @@ fn breach(violation: &Violation) -> Breach {
     Breach::new(clause, violation)
 }
 
+/// Judges what anybody shows of a state by the core's own judges.
+pub fn judge_shown(shown: &impl Shows) -> Result<(), Breach> {
+    check_view(shown).map_err(|violation| breach(&violation))?;
+    check_repairs(shown).map_err(|violation| breach(&violation))
+}
+
 /// Judges a view by every clause that holds of one state. `[property: INV-1]` `[property: INV-2]`
 /// `[property: INV-3]` `[property: INV-4]` `[property: INV-5]` `[property: INV-6]` `[property: VIEW-9]`
 /// `[property: VIEW-10]` `[property: INTENT-2]`
 pub fn judge_view(view: &View<'_>) -> Result<(), Breach> {
-    check_view(view).map_err(|violation| breach(&violation))?;
-    check_repairs(view).map_err(|violation| breach(&violation))?;
+    judge_shown(view)?;
     intent::check_hidden_are_outranked(view)
 }
 
