@@ -80,6 +80,7 @@ pub(super) struct Shapes {
     shape: Vec<u32>,
     image: Vec<u32>,
     by: usize,
+    firsts: Vec<u32>,
 }
 
 impl Shapes {
@@ -98,6 +99,7 @@ impl Shapes {
             shape: Vec::new(),
             image: Vec::new(),
             by: 0,
+            firsts: Vec::new(),
         }
     }
 
@@ -152,13 +154,16 @@ impl Shapes {
 
     /// The least that renaming replicas makes of the shape: by the deltas out of time, then by the rest.
     fn take_least_image<S: Semantics>(&mut self, semantics: &S, tables: &Tables<S>, grain: Grain) {
+        self.find_least_firsts();
         let words = self.set.len() + 1;
         let original = std::mem::take(&mut self.set);
         for permutation in 1..self.permutations.len() {
-            let rename = |timed: &Timed| self.renamed[timed.number as usize][permutation];
+            if self.firsts[permutation] != self.firsts[0] {
+                continue;
+            }
             self.image.clear();
             self.image.push(grain as u32);
-            self.image.extend(original.iter().map(rename));
+            self.image.extend(original.iter().map(|timed| self.renamed[timed.number as usize][permutation]));
             self.image[1..].sort_unstable();
             let order = self.image[..].cmp(&self.shape[..words]);
             if order == Ordering::Greater || order == Ordering::Equal && grain == Grain::Outline {
@@ -166,9 +171,10 @@ impl Shapes {
             }
             if grain > Grain::Outline {
                 let renamed = &self.renamed;
-                let image = original
-                    .iter()
-                    .map(|timed| Timed { number: renamed[timed.number as usize][permutation], ..*timed });
+                let image = original.iter().map(|timed| Timed {
+                    number: renamed[timed.number as usize][permutation],
+                    ..*timed
+                });
                 self.set.extend(image);
                 std::mem::swap(&mut self.image, &mut self.shape);
                 self.tell(semantics, tables, grain);
@@ -181,6 +187,19 @@ impl Shapes {
             }
         }
         self.set = original;
+    }
+
+    /// The least number of each image, by permutation; that of all in the place of the identity. Only images
+    /// that begin with it can be the least, which spares sorting the others.
+    fn find_least_firsts(&mut self) {
+        self.firsts.clear();
+        self.firsts.resize(self.permutations.len(), u32::MAX);
+        for timed in &self.set {
+            for (first, &image) in self.firsts.iter_mut().zip(&self.renamed[timed.number as usize]) {
+                *first = (*first).min(image);
+            }
+        }
+        self.firsts[0] = self.firsts.iter().copied().min().unwrap_or(u32::MAX);
     }
 
     /// Appends how the stamps of those compare that compete at least so.
