@@ -115,8 +115,7 @@ impl Subject<'_> {
     /// replicas, and both; at the last vertex where the whole focus is hopeless. `[spec: CHECK-3]`
     pub fn deep_histories(&self) -> Result<Vec<HistoryRun<Checked>>, FocusError> {
         let bound = |replicas, mutations| Bound { replicas, mutations };
-        let mut runs =
-            vec![self.histories(3, bound(2, 2), &K::ALL)?, self.at_last(2, bound(3, 2), &K::ALL)?];
+        let mut runs = vec![self.histories(3, bound(2, 2), &K::ALL)?, self.at_last(2, bound(3, 2), &K::ALL)?];
         for pair in pairs() {
             runs.push(self.histories(2, bound(2, 3), &pair)?);
             runs.push(self.at_last(2, bound(4, 2), &pair)?);

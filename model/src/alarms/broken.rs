@@ -3,7 +3,7 @@
 use super::shown::Shown;
 use crate::algebra::{Algebra, Family, core_universe};
 use crate::checked::{Act, Checked, judge_shown, replica_id};
-use crate::semantics::{Breach, Competition, Judged, Semantics, Step};
+use crate::semantics::{Breach, Clause, Competition, Judged, Semantics, Step};
 use dsr_core::{Author, Delta, Mutation, State, View, delta_for, digest, view};
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -204,8 +204,8 @@ impl Semantics for Broken {
         self.core.witnesses()
     }
 
-    fn is_order_sensitive(&self, _state: &State) -> bool {
-        true
+    fn clauses(&self) -> Vec<Clause> {
+        self.core.clauses()
     }
 
     fn rename_state(&self, state: &State, to: &[usize]) -> State {

@@ -5,7 +5,7 @@ mod intent;
 mod renaming;
 mod timeless;
 
-use crate::semantics::{Breach, Competition, Judged, Semantics, Step, Witnesses};
+use crate::semantics::{Breach, Clause, Competition, Judged, Semantics, Step, WHOLE, Witnesses};
 use alphabet::Alphabet;
 use dsr_core::invariant::{Violation, check_repairs, check_view};
 use dsr_core::{
@@ -277,6 +277,14 @@ impl Semantics for Checked {
         let mut names = REPAIRS.to_vec();
         names.extend(["two live writes of one attribute", "a pending record", "a gap in a context"]);
         names
+    }
+
+    fn clauses(&self) -> Vec<Clause> {
+        WHOLE.to_vec()
+    }
+
+    fn has_symmetry(&self) -> bool {
+        true
     }
 
     fn is_order_sensitive(&self, state: &State) -> bool {

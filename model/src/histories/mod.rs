@@ -119,7 +119,8 @@ impl<S: Semantics> Histories<S> {
         let mut tables = Tables::default();
         let initial = tables.intern(semantics.initial());
         let kinds = semantics.kinds().len();
-        let permutations = Permutations::of(if symmetry { bound.replicas } else { 1 });
+        let permutations =
+            Permutations::of(if symmetry && semantics.has_symmetry() { bound.replicas } else { 1 });
         Self {
             semantics,
             bound,

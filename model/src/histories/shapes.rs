@@ -171,10 +171,9 @@ impl Shapes {
             }
             if grain > Grain::Outline {
                 let renamed = &self.renamed;
-                let image = original.iter().map(|timed| Timed {
-                    number: renamed[timed.number as usize][permutation],
-                    ..*timed
-                });
+                let image = original
+                    .iter()
+                    .map(|timed| Timed { number: renamed[timed.number as usize][permutation], ..*timed });
                 self.set.extend(image);
                 std::mem::swap(&mut self.image, &mut self.shape);
                 self.tell(semantics, tables, grain);

@@ -95,3 +95,22 @@ impl<S: Semantics> Histories<S> {
         orbit
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `[spec: CHECK-5]`
+    #[test]
+    fn law_permutations_are_all_and_have_inverses() {
+        for replicas in 1..=4 {
+            let all = Permutations::of(replicas);
+            assert_eq!(all.len(), (1..=replicas).product::<usize>());
+            assert_eq!(all.get(0), (0..replicas).collect::<Vec<_>>());
+            for permutation in 0..all.len() {
+                let back = all.inverse(permutation);
+                assert!((0..replicas).all(|r| all.image(all.image(r, permutation), back) == r));
+            }
+        }
+    }
+}

@@ -108,6 +108,10 @@ impl<S: Semantics> Semantics for Restricted<S> {
         self.whole.witnesses()
     }
 
+    fn has_symmetry(&self) -> bool {
+        self.whole.has_symmetry()
+    }
+
     fn is_order_sensitive(&self, state: &S::State) -> bool {
         self.whole.is_order_sensitive(state)
     }
