@@ -87,7 +87,7 @@ fn differential_both_engines_count_the_same() {
         assert!(report.states.judged > 0 && report.states.diamonds > report.states.judged / 2);
         let mut fresh = Histories::new(run.semantics.clone(), run.bound, true);
         let progress = Progress::new(Limits::default());
-        assert_eq!(search::count(&mut fresh, &progress).unwrap().unwrap().unique, second.unique);
+        assert_eq!(search::count(&mut fresh, 0, &progress).unwrap().unwrap().unique, second.unique);
     }
 }
 

@@ -5,7 +5,7 @@
 
 use super::Space;
 use crate::progress::Progress;
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxBuildHasher, FxHashSet};
 
 /// What a search has counted.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -16,9 +16,15 @@ pub struct Counts {
     pub generated: u64,
 }
 
-/// Counts every node; `None` if `progress` says to stop before the end.
-pub fn count<P: Space>(space: &mut P, progress: &Progress) -> Result<Option<Counts>, P::Fault> {
-    let mut seen = FxHashSet::from_iter([space.start()]);
+/// Counts every node; `None` if `progress` says to stop before the end. Room is made for `expected` nodes.
+pub fn count<P: Space>(
+    space: &mut P,
+    expected: u64,
+    progress: &Progress,
+) -> Result<Option<Counts>, P::Fault> {
+    let room = usize::try_from(expected).unwrap_or(0);
+    let mut seen = FxHashSet::with_capacity_and_hasher(room, FxBuildHasher);
+    seen.insert(space.start());
     let mut level: Vec<P::Node> = seen.iter().copied().collect();
     let mut counts = Counts::default();
     let mut successors = Vec::new();

@@ -29,7 +29,7 @@ pub(crate) fn search<P: Space>(
     let (mut space, mut explored) = explore(space, progress);
     let (mut second, mut second_cut) = (None, false);
     if second_engine && !explored.cut && explored.fault.is_none() {
-        match count(&mut space, progress) {
+        match count(&mut space, explored.unique, progress) {
             Ok(counts) => (second, second_cut) = (counts, counts.is_none()),
             Err(fault) => explored.fault = Some(fault),
         }
