@@ -7,6 +7,7 @@ pub mod focus;
 pub mod histories;
 pub mod job;
 pub mod progress;
+pub mod published;
 pub mod scenario;
 pub mod schedules;
 pub mod search;
