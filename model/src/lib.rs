@@ -4,6 +4,7 @@ pub mod alarms;
 pub mod algebra;
 pub mod checked;
 pub mod focus;
+pub mod gallery;
 pub mod histories;
 pub mod job;
 pub mod progress;

@@ -113,4 +113,13 @@ impl Message {
             Self::Graph { .. } => Topic::Graph,
         }
     }
+
+    /// Whether it is a list of nothing: such a message is sent, and changes nothing.
+    pub fn is_empty_list(&self) -> bool {
+        match self {
+            Self::NodeAttributes { parts, .. } => parts.is_empty(),
+            Self::EdgeAttributes { parts, .. } => parts.is_empty(),
+            _ => false,
+        }
+    }
 }

@@ -11,28 +11,43 @@
 //! | `replica`, `buffers` | one replica's graph, its indices, what it holds back |
 //! | `operation`, `local` | what an agent may call, and what it broadcasts |
 //! | `remote`, `remote_edges`, `snapshot` | what a replica does with what arrives |
+//! | `setup`, `world`, `tables`, `space`, `machines` | several replicas and their network, as a space to search |
+//! | `property` | what may break |
+//! | `show` | events in words, and replay |
 
 mod buffers;
 mod context;
 mod graph;
 mod local;
+mod machines;
 mod message;
 mod operation;
+mod property;
 mod register;
 mod remote;
 mod remote_edges;
 mod replica;
+mod setup;
+mod show;
 mod snapshot;
+mod space;
+mod tables;
 mod variant;
+mod world;
 
 pub use buffers::{Buffers, Held, HeldIncoming};
 pub use context::{Context, Dot};
 pub use graph::{Attribute, AttributeRegisters, Edge, Node, NodeName, Value};
 pub use message::{EdgePart, Message, NodePart, Topic};
 pub use operation::Operation;
+pub use property::Property;
 pub use register::{Payload, REGISTER_ID, Register};
 pub use replica::{NodeCopy, Replica, Shown, ShownEdge, ShownNode};
+pub use setup::{CALL_TIME, Guard, Joiner, Order, Play, Powers, REPLICAS_MAX, Setup, When};
+pub use show::{Copy, Happening};
+pub use space::{Moment, Network};
 pub use variant::{Stamps, Variant, Workers};
+pub use world::{Event, Letter};
 
 use std::fmt;
 

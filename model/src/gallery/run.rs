@@ -1,0 +1,131 @@
+//! A row's search and its report.
+
+use super::Row;
+use crate::published::{Happening, Network, Order, Setup};
+use crate::search::find_fault;
+use crate::semantics::Breach;
+use std::time::Instant;
+
+/// The most moments that a row's search looks at.
+const MOMENTS_MAX: usize = 4_000_000;
+
+/// How a row was found.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Found {
+    /// By search, shortest.
+    Search,
+    /// Not at all.
+    No,
+}
+
+impl Found {
+    /// In a word.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Search => "search",
+            Self::No => "no",
+        }
+    }
+}
+
+/// What became of a row.
+#[derive(Clone, Debug)]
+pub struct RowReport {
+    /// Its number.
+    pub row: &'static str,
+    /// What goes wrong.
+    pub title: &'static str,
+    /// How it was found.
+    pub found: Found,
+    /// Why it was not.
+    pub reason: Option<&'static str>,
+    /// The layer: whole schedules.
+    pub layer: &'static str,
+    /// The setup, in words.
+    pub bound: String,
+    /// How many different moments the search met.
+    pub states: u64,
+    /// How many events lead to the fault.
+    pub steps: usize,
+    /// How long the search took.
+    pub seconds: f64,
+    /// What happens.
+    pub trace: Vec<Happening>,
+    /// The same, a line each.
+    pub lines: Vec<String>,
+    /// What is broken then.
+    pub breach: Option<Breach>,
+}
+
+/// Searches for a row's anomaly.
+pub fn run_row(row: &Row) -> RowReport {
+    let mut report = RowReport {
+        row: row.row,
+        title: row.title,
+        found: Found::No,
+        reason: None,
+        layer: "L2",
+        bound: String::new(),
+        states: 0,
+        steps: 0,
+        seconds: 0.0,
+        trace: Vec::new(),
+        lines: Vec::new(),
+        breach: None,
+    };
+    let setup = match &row.search {
+        Ok(setup) => setup,
+        Err(reason) => return RowReport { reason: Some(reason), ..report },
+    };
+    report.bound = bound(setup);
+    let begun = Instant::now();
+    let mut network = Network::new(setup.clone());
+    let found = find_fault(&mut network, MOMENTS_MAX);
+    report.seconds = begun.elapsed().as_secs_f64();
+    report.states = network.moments();
+    let Some(found) = found else {
+        return RowReport { reason: Some("the search ended without finding it"), ..report };
+    };
+    report.found = Found::Search;
+    report.steps = found.events.len();
+    report.trace = found.events.iter().map(|(_, event)| network.happening(event)).collect();
+    report.lines = report.trace.iter().map(|happening| setup.line(happening)).collect();
+    report.breach = Some(found.fault);
+    report
+}
+
+/// Whether a row's control finds the anomaly after all, and how many moments were searched; `None` if there is
+/// no control or its search did not end.
+pub fn control_finds(row: &Row) -> Option<(bool, u64)> {
+    let control = row.control.as_ref()?;
+    let mut network = Network::new(control.setup.clone());
+    let found = find_fault(&mut network, MOMENTS_MAX);
+    let moments = network.moments();
+    (moments < MOMENTS_MAX as u64).then_some((found.is_some(), moments))
+}
+
+/// How far a search goes, in words.
+fn bound(setup: &Setup) -> String {
+    let calls: usize = setup.plays.iter().map(|play| usize::from(play.calls_max)).sum();
+    let powers = &setup.powers;
+    let order = match powers.order {
+        Order::Causal => "causal order",
+        Order::Pair => "order by pair",
+        Order::Topic => "order by topic",
+        Order::Pool => "order by topic, nodes and edges in any",
+    };
+    let mut words = vec![format!("{} replicas", setup.replicas()), format!("{calls} calls"), order.into()];
+    if powers.losses_max > 0 {
+        words.push(format!("{} lost", powers.losses_max));
+    }
+    if powers.duplicates_max > 0 {
+        words.push(format!("{} repeated", powers.duplicates_max));
+    }
+    words.extend(powers.restarts.map(|_| "1 restart".into()));
+    words.extend(powers.joiner.as_ref().map(|_| "1 joiner".into()));
+    words.extend(powers.slow.map(|_| "1 slow copy".into()));
+    if powers.ahead.iter().any(|ahead| *ahead != 0) {
+        words.push("clocks differ".into());
+    }
+    words.join(", ")
+}

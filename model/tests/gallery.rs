@@ -1,0 +1,141 @@
+//! Every row that is listed as found is found, replays, is shortest, and needs its cause.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
+
+use dsr_model::gallery::{Found, RowReport, control_finds, rows, run_row};
+use dsr_model::published::{Event, Moment, Network};
+use dsr_model::search::{Space, find_fault};
+use dsr_model::semantics::Breach;
+
+/// Rows that no search finds yet.
+const NOT_FOUND: [&str; 1] = ["31"];
+
+fn reports() -> Vec<RowReport> {
+    rows().iter().map(run_row).collect()
+}
+
+#[test]
+fn oracle_every_row_is_found() {
+    let reports = reports();
+    for report in &reports {
+        println!(
+            "| {} | {} | {} | {} | {} | {} | {:.2} |",
+            report.row,
+            report.title,
+            report.found.word(),
+            report.bound,
+            report.states,
+            report.steps,
+            report.seconds
+        );
+        for line in &report.lines {
+            println!("      {line}");
+        }
+        println!("      => {:?} {:?}", report.breach, report.reason);
+    }
+    let missing: Vec<&str> =
+        reports.iter().filter(|report| report.found == Found::No).map(|report| report.row).collect();
+    assert_eq!(missing, NOT_FOUND);
+    assert_eq!(reports.len(), 34);
+}
+
+#[test]
+fn canary_no_row_is_found_without_its_cause() {
+    let mut wrong = Vec::new();
+    for row in rows().iter().filter(|row| row.search.is_ok()) {
+        let found = control_finds(row);
+        println!("{} {:?} {found:?}", row.row, row.control.as_ref().map(|control| control.what));
+        if !matches!(found, Some((false, _))) {
+            wrong.push(row.row);
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:?}");
+}
+
+/// A network that ends after some events.
+struct Short {
+    network: Network,
+    events_max: usize,
+}
+
+impl Space for Short {
+    type Node = (Moment, usize);
+    type Event = Event;
+    type Fault = Breach;
+
+    fn start(&self) -> Self::Node {
+        (self.network.start(), 0)
+    }
+
+    fn successors(&mut self, at: &Self::Node, out: &mut Vec<(Event, Self::Node)>) -> Result<(), Breach> {
+        let mut successors = Vec::new();
+        if at.1 < self.events_max {
+            self.network.successors(&at.0, &mut successors)?;
+        }
+        out.extend(successors.into_iter().map(|(event, next)| (event, (next, at.1 + 1))));
+        Ok(())
+    }
+
+    fn judge(&mut self, at: &Self::Node) -> Result<(), Breach> {
+        self.network.judge(&at.0)
+    }
+
+    fn depth(&self, at: &Self::Node) -> usize {
+        self.network.depth(&at.0)
+    }
+
+    fn states_judged(&self) -> u64 {
+        self.network.states_judged()
+    }
+
+    fn witnessed(&self) -> usize {
+        0
+    }
+}
+
+#[test]
+fn law_every_trace_is_shortest() {
+    for row in rows() {
+        let report = run_row(&row);
+        let (Ok(setup), Found::Search) = (row.search, report.found) else { continue };
+        for (events_max, found) in [(report.steps, true), (report.steps - 1, false)] {
+            let mut short = Short { network: Network::new(setup.clone()), events_max };
+            assert_eq!(find_fault(&mut short, usize::MAX).is_some(), found, "{} {events_max}", row.row);
+        }
+    }
+}
+
+#[test]
+fn law_every_trace_replays_to_the_same_states() {
+    for row in rows() {
+        let report = run_row(&row);
+        let (Ok(setup), Some(breach)) = (row.search, report.breach) else { continue };
+        let mut searched = Network::new(setup.clone());
+        let end = find_fault(&mut searched, usize::MAX).unwrap().end;
+        for _ in 0..100 {
+            let mut again = Network::new(setup.clone());
+            let at = again.replay(&report.trace).unwrap();
+            assert_eq!(again.at(at), searched.at(end), "{}", row.row);
+            assert_eq!(again.judge(&at), Err(breach.clone()), "{}", row.row);
+        }
+    }
+}
+
+/// A trace with one event left out cannot happen, or does not lead to the same states, and breaks nothing.
+#[test]
+fn canary_a_spoiled_trace_is_noticed() {
+    for row in rows() {
+        let report = run_row(&row);
+        let (Ok(setup), Found::Search) = (row.search, report.found) else { continue };
+        let mut network = Network::new(setup.clone());
+        let end = network.replay(&report.trace).unwrap();
+        for at in 0..report.steps {
+            let mut spoiled = report.trace.clone();
+            spoiled.remove(at);
+            let reached = network.replay(&spoiled);
+            assert!(reached != Some(end), "{} without {at}", row.row);
+            let breaks = reached.is_some_and(|reached| network.judge(&reached).is_err());
+            assert!(!breaks, "{} breaks without {at}", row.row);
+        }
+    }
+}
