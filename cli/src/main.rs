@@ -2,6 +2,7 @@
 
 mod alarms;
 mod check;
+mod gallery;
 mod input;
 mod output;
 mod scene;
@@ -28,6 +29,7 @@ struct Arguments {
 enum Command {
     Check(check::Arguments),
     Alarms(alarms::Arguments),
+    Gallery(gallery::Arguments),
     /// Checks, shows, converts and compares scenes: graph files of the published system
     #[command(subcommand)]
     Scene(scene::Command),
@@ -38,6 +40,7 @@ impl Command {
         match self {
             Self::Check(arguments) => arguments.run(),
             Self::Alarms(arguments) => arguments.run(),
+            Self::Gallery(arguments) => arguments.run(),
             Self::Scene(command) => command.run(),
         }
     }

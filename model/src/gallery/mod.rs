@@ -11,13 +11,16 @@
 //! | `joining` | whoever joins, restarts, or does not hear |
 //! | `kinematics` | names, parents, levels |
 //! | `run` | a row's search and its report |
+//! | `checked` | the same schedule on `dsr-core` |
 
+mod checked;
 mod edges;
 mod joining;
 mod kinematics;
 mod registers;
 mod run;
 
+pub use checked::{Checked, run_checked};
 pub use run::{Found, RowReport, control_finds, run_row};
 
 use crate::published::{Guard, Operation, Order, Play, Powers, Property, Setup, Variant, When};

@@ -1,6 +1,6 @@
 //! A row's search and its report.
 
-use super::Row;
+use super::{Checked, Row, run_checked};
 use crate::published::{Happening, Network, Order, Setup};
 use crate::search::find_fault;
 use crate::semantics::Breach;
@@ -55,6 +55,8 @@ pub struct RowReport {
     pub lines: Vec<String>,
     /// What is broken then.
     pub breach: Option<Breach>,
+    /// What the checked semantics does with the same schedule.
+    pub checked: Option<Checked>,
 }
 
 /// Searches for a row's anomaly.
@@ -72,6 +74,7 @@ pub fn run_row(row: &Row) -> RowReport {
         trace: Vec::new(),
         lines: Vec::new(),
         breach: None,
+        checked: None,
     };
     let setup = match &row.search {
         Ok(setup) => setup,
@@ -91,6 +94,7 @@ pub fn run_row(row: &Row) -> RowReport {
     report.trace = found.events.iter().map(|(_, event)| network.happening(event)).collect();
     report.lines = report.trace.iter().map(|happening| setup.line(happening)).collect();
     report.breach = Some(found.fault);
+    report.checked = run_checked(setup, &report.trace);
     report
 }
 

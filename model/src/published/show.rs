@@ -108,15 +108,24 @@ impl Network {
         }
     }
 
+    /// What is under way.
+    pub fn letters(&self, moment: Moment) -> Vec<Copy> {
+        let letters = self.letters_at(moment).into_iter();
+        letters
+            .map(|letter| Copy { from: letter.from, to: letter.to, message: self.message(letter) })
+            .collect()
+    }
+
+    /// Where a happening leads; `None` if it cannot happen.
+    pub fn step(&mut self, at: Moment, happening: &Happening) -> Option<Moment> {
+        let mut successors = Vec::new();
+        self.successors(&at, &mut successors).ok()?;
+        successors.into_iter().find(|(event, _)| self.happening(event) == *happening).map(|(_, next)| next)
+    }
+
     /// Where these happenings lead, one after the other; `None` if one of them cannot happen.
     pub fn replay(&mut self, happenings: &[Happening]) -> Option<Moment> {
-        let mut at = self.start();
-        for happening in happenings {
-            let mut successors = Vec::new();
-            self.successors(&at, &mut successors).ok()?;
-            at = successors.into_iter().find(|(event, _)| self.happening(event) == *happening)?.1;
-        }
-        Some(at)
+        happenings.iter().try_fold(self.start(), |at, happening| self.step(at, happening))
     }
 }
 

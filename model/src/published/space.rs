@@ -70,6 +70,10 @@ impl Network {
         world.replicas.iter().map(|&replica| self.replicas.get(replica)).collect()
     }
 
+    pub(super) fn letters_at(&self, moment: Moment) -> Vec<Letter> {
+        self.worlds.get(moment.0).letters.clone()
+    }
+
     /// How many different moments were met so far.
     pub fn moments(&self) -> u64 {
         self.worlds.len() as u64

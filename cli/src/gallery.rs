@@ -1,0 +1,108 @@
+//! `dsr gallery`: the known anomalies of the published semantics, found by search.
+
+use crate::check::Format;
+use crate::output::{add, err, out};
+use crate::status::Status;
+use dsr_model::gallery::{Found, RowReport, rows, run_row};
+use serde_json::{Value, json};
+
+const ABOUT: &str = "\
+Each row is one way in which replicas of the published system go wrong. A breadth-first search over everything that a \
+small network may do finds a shortest schedule for it; the same schedule then runs on the checked semantics.";
+
+const STATUS: &str = "\
+Exit status: 0 every row that is modelled was found and the checked semantics holds, 1 one was not or it does not,
+3 wrong usage";
+
+/// Arguments of `dsr gallery`.
+#[derive(clap::Args, Debug)]
+#[command(about = "Finds the known anomalies of the published semantics", long_about = ABOUT, after_help = STATUS)]
+pub(crate) struct Arguments {
+    /// Only this row, with its schedule, such as 1b
+    #[arg(long)]
+    row: Option<String>,
+    /// How the result is printed
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+impl Arguments {
+    pub(crate) fn run(&self) -> Status {
+        let wanted = |row: &str| self.row.as_ref().is_none_or(|wanted| wanted == row);
+        let rows: Vec<_> = rows().into_iter().filter(|row| wanted(row.row)).collect();
+        if rows.is_empty() {
+            err("there is no such row; without --row all are listed");
+            return Status::Usage;
+        }
+        let reports: Vec<RowReport> = rows.iter().map(run_row).collect();
+        match self.format {
+            Format::Text => out(&text(&reports, self.row.is_some())),
+            Format::Json => {
+                let all = json!({ "rows": reports.iter().map(row_json).collect::<Vec<_>>() });
+                out(&format!("{}\n", serde_json::to_string_pretty(&all).unwrap_or_default()));
+            }
+        }
+        let fine = rows.iter().zip(&reports).all(|(row, report)| row.search.is_err() || is_fine(report));
+        if fine { Status::Claimed } else { Status::Violated }
+    }
+}
+
+fn is_fine(report: &RowReport) -> bool {
+    report.found == Found::Search && report.checked.as_ref().is_some_and(|checked| checked.broken.is_none())
+}
+
+fn checked(report: &RowReport) -> Option<String> {
+    report.checked.as_ref().map(dsr_model::gallery::Checked::verdict)
+}
+
+fn text(reports: &[RowReport], schedules: bool) -> String {
+    let mut text = String::new();
+    add(&mut text, "row  found   steps   states  clause    checked  what\n");
+    for report in reports {
+        let clause = report.breach.as_ref().map_or("-", |breach| breach.clause);
+        let checked = checked(report).unwrap_or_else(|| "-".into());
+        let (row, found, title) = (report.row, report.found.word(), report.title);
+        let (steps, states) = (report.steps, report.states);
+        add(
+            &mut text,
+            format_args!("{row:<4} {found:<7} {steps:>5} {states:>8}  {clause:<9} {checked:<8} {title}\n"),
+        );
+        if let Some(reason) = report.reason {
+            add(&mut text, format_args!("     {reason}\n"));
+        }
+        if schedules {
+            add_schedule(&mut text, report);
+        }
+    }
+    let found = reports.iter().filter(|report| report.found == Found::Search).count();
+    add(&mut text, format_args!("{found} of {} found by search\n", reports.len()));
+    text
+}
+
+fn add_schedule(text: &mut String, report: &RowReport) {
+    add(text, format_args!("\n{}, {:.2} s\n", report.bound, report.seconds));
+    for (at, line) in report.lines.iter().enumerate() {
+        add(text, format_args!("{:>4}. {line}\n", at + 1));
+    }
+    if let Some(breach) = &report.breach {
+        add(text, format_args!("[{}] {}\n\n", breach.clause, breach.detail));
+    }
+}
+
+fn row_json(report: &RowReport) -> Value {
+    json!({
+        "row": report.row,
+        "title": report.title,
+        "found": report.found.word(),
+        "reason": report.reason,
+        "layer": report.layer,
+        "bound": report.bound,
+        "states": report.states,
+        "steps": report.steps,
+        "seconds": report.seconds,
+        "clause": report.breach.as_ref().map(|breach| breach.clause),
+        "detail": report.breach.as_ref().map(|breach| &breach.detail),
+        "schedule": report.lines,
+        "checked": checked(report),
+    })
+}
