@@ -120,7 +120,7 @@ impl Replay {
                 self.states[*replica] = self.initial[*replica].clone();
                 self.replicas[*replica].incarnation += 1;
             }
-            Happening::Lose(_) | Happening::Find(_) => {}
+            Happening::Lose(_) | Happening::Find(_) | Happening::Tell => {}
         }
     }
 

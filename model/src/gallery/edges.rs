@@ -25,7 +25,11 @@ fn replaced() -> Vec<Row> {
     let again: [&[_]; 2] = [&[free(DELETE_EDGE), free(with(&[("p", 5)]))], &[]];
     let mut again = setup(&[1, 2], &[NODE, END, EDGE], &again, Property::Divergence);
     again.powers.order = Order::Pool;
+    let seen: [&[_]; 3] = [&[free(EDGE)], &[(Guard::Linked(1, 2, "in"), DELETE_EDGE)], &[]];
+    let seen = setup(&[1, 2, 3], &[NODE, END], &seen, Property::Divergence);
     vec![
+        Row::new("34", "the removal of an edge overtakes its insertion", seen)
+            .unless("messages arrive after what caused them", |setup| setup.powers.order = Order::Causal),
         Row::new("7", "an edge inserted twice, and an update of one of them", twice)
             .unless("neither is updated", |setup| setup.plays[0].calls_max = 1),
         Row::new("8", "an edge inserted again overtakes its deletion", again)

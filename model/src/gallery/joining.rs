@@ -8,7 +8,7 @@ const WRITTEN: Guard = Guard::Shows(1, "x", 2);
 
 fn joined(mut setup: Setup, server: usize, hears: &[usize], asks: Guard) -> Setup {
     let replica = setup.replicas() - 1;
-    setup.powers.joiner = Some(Joiner { replica, server, hears: hears.to_vec(), asks });
+    setup.powers.joiner = Some(Joiner { replica, server, hears: hears.to_vec(), asks, early: false });
     setup
 }
 
@@ -24,6 +24,12 @@ fn hear(setup: &mut Setup, replicas: &[usize]) {
     }
 }
 
+fn tell_early(setup: &mut Setup, early: bool) {
+    if let Some(joiner) = &mut setup.powers.joiner {
+        joiner.early = early;
+    }
+}
+
 pub(super) fn rows() -> Vec<Row> {
     [snapshots(), deleted(), clocks(), failures(), identity()].concat()
 }
@@ -35,6 +41,8 @@ fn snapshots() -> Vec<Row> {
     let missed = joined(setup(&[1, 2, 3], &[], &missed, diverge), 0, &[0], WRITTEN);
     let late: [&[_]; 3] = [&[free(set(2))], &[], &[]];
     let late = joined(setup(&[1, 2, 3], &[NODE], &late, diverge), 1, &[0, 1], Guard::Always);
+    let between: [&[_]; 3] = [&[], &[(Guard::Encoded, set(2))], &[]];
+    let between = joined(setup(&[1, 2, 3], &[NODE], &between, diverge), 0, &[0], Guard::Always);
     let after = (Guard::Encoded, set(3));
     let first: [&[_]; 3] = [&[free(set(2)), after], &[], &[]];
     let first = joined(setup(&[1, 2, 3], &[NODE], &first, diverge), 1, &[0, 1], Guard::Always);
@@ -43,6 +51,12 @@ fn snapshots() -> Vec<Row> {
             .unless("it hears everybody from the start", |setup| hear(setup, &[0, 1])),
         Row::new("14", "a joiner drops a write that its snapshot has not", late)
             .unless("the server is asked after it has got the write", |setup| ask_when(setup, WRITTEN)),
+        Row::new(
+            "35",
+            "a joiner misses what is written between its snapshot and finding the writer",
+            between,
+        )
+        .unless("it hears everybody from the start", |setup| hear(setup, &[0, 1])),
         Row::new(
             "15",
             "a joiner drops a write together with an older one",
@@ -116,9 +130,13 @@ fn failures() -> Vec<Row> {
 
 /// Who is who, and when one is in.
 fn identity() -> Vec<Row> {
+    let early = setup(&[1, 2], &[NODE], &[&[], &[]], Property::Missing(1));
+    let mut early = Setup { when: When::Always, ..joined(early, 0, &[0], Guard::Always) };
+    tell_early(&mut early, true);
     let same = setup(&[1, 1], &[], &[&[free(NODE)], &[]], Property::Divergence);
     vec![
-        Row::missing("31", "joining returns before the graph is there", "not modelled yet"),
+        Row::new("31", "joining returns before the graph is there", early)
+            .unless("the graph is taken in first", |setup| tell_early(setup, false)),
         Row::new("32", "two agents with one number pass over each other's messages", same)
             .unless("their numbers differ", |setup| setup.agents = vec![1, 2]),
     ]

@@ -2,7 +2,7 @@
 
 use super::{Checked, Row, run_checked};
 use crate::published::{Happening, Network, Order, Setup};
-use crate::search::find_fault;
+use crate::search::{Space, find_fault};
 use crate::semantics::Breach;
 use std::time::Instant;
 
@@ -76,10 +76,7 @@ pub fn run_row(row: &Row) -> RowReport {
         breach: None,
         checked: None,
     };
-    let setup = match &row.search {
-        Ok(setup) => setup,
-        Err(reason) => return RowReport { reason: Some(reason), ..report },
-    };
+    let setup = &row.setup;
     report.bound = bound(setup);
     let begun = Instant::now();
     let mut network = Network::new(setup.clone());
@@ -98,14 +95,27 @@ pub fn run_row(row: &Row) -> RowReport {
     report
 }
 
-/// Whether a row's control finds the anomaly after all, and how many moments were searched; `None` if there is
-/// no control or its search did not end.
-pub fn control_finds(row: &Row) -> Option<(bool, u64)> {
+/// What a search of a row's control came to.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct ControlReport {
+    /// Whether it found the anomaly after all.
+    pub found: bool,
+    /// Whether it came to its end.
+    pub ended: bool,
+    /// How many different moments it met.
+    pub states: u64,
+    /// At how many of them the property was judged.
+    pub judged: u64,
+}
+
+/// Searches a row's control; `None` if there is none.
+pub fn run_control(row: &Row) -> Option<ControlReport> {
     let control = row.control.as_ref()?;
     let mut network = Network::new(control.setup.clone());
-    let found = find_fault(&mut network, MOMENTS_MAX);
-    let moments = network.moments();
-    (moments < MOMENTS_MAX as u64).then_some((found.is_some(), moments))
+    let found = find_fault(&mut network, MOMENTS_MAX).is_some();
+    let states = network.moments();
+    let ended = states < MOMENTS_MAX as u64;
+    Some(ControlReport { found, ended, states, judged: network.states_judged() })
 }
 
 /// How far a search goes, in words.

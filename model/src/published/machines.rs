@@ -19,12 +19,18 @@ impl Network {
         }
     }
 
-    /// Whether who joins has got its graph and hears everybody.
+    /// Whether who joins has got its graph, or is told so, and hears everybody.
     pub(super) fn has_joined(&self, world: &World) -> bool {
-        let Some(joiner) = self.joiner() else { return true };
-        let others = (0..self.setup.replicas()).filter(|&other| other != joiner);
+        let Some(joiner) = &self.setup.powers.joiner else { return true };
+        let mut others = (0..self.setup.replicas()).filter(|&other| other != joiner.replica);
         let arrived = world.letters.iter().all(|letter| letter.topic != Topic::Graph);
-        world.encoded && arrived && others.into_iter().all(|other| world.heard >> other & 1 == 1)
+        world.encoded && (arrived || world.told) && others.all(|other| world.heard >> other & 1 == 1)
+    }
+
+    /// Whether a letter is the graph of an early joiner who has not been told yet.
+    pub(super) fn waits_to_be_told(&self, world: &World, letter: Letter) -> bool {
+        let early = self.setup.powers.joiner.as_ref().is_some_and(|joiner| joiner.early);
+        early && !world.told && letter.topic == Topic::Graph
     }
 
     pub(super) fn joining(&mut self, world: &World, out: &mut Vec<(Event, Moment)>) {
@@ -35,6 +41,9 @@ impl Network {
                 next.heard |= 1 << replica;
                 self.push(next, Event::Find { replica }, out);
             }
+        }
+        if world.letters.iter().any(|&letter| self.waits_to_be_told(world, letter)) {
+            self.push(World { told: true, ..world.clone() }, Event::Tell, out);
         }
         let server = self.replicas.get(world.replicas[joiner.server]);
         let asks = world.heard >> joiner.server & 1 == 1 && joiner.asks.allows(world, &server);

@@ -24,6 +24,12 @@ pub enum Property {
     ParentLoop,
     /// A node has one kinematic edge, and `parent` does not name its start, or `level` is missing.
     ParentMismatch(NodeId),
+    /// A node has one kinematic edge, and its level is not one more than that of the edge's start.
+    LevelMismatch(NodeId),
+    /// `parent` of a node names a node that is deleted here.
+    Orphan(NodeId),
+    /// The last replica, which has joined, does not show a node that the first shows.
+    Missing(NodeId),
     /// A value that was written, and that nobody overwrote or removed after, is shown by nobody.
     Lost(NodeId, Key, i64),
     /// An attribute is shown by one replica, by position, and by no other.
@@ -40,12 +46,14 @@ impl Property {
         match self {
             Self::Divergence | Self::OnlyAt(..) => "JOIN-5",
             Self::Unreadable => "VIEW-1",
-            Self::Dangling(_) => "INV-2",
+            Self::Dangling(_) | Self::Orphan(_) => "INV-2",
             Self::Revived(_) => "STATE-3",
-            Self::TwoParents(_) | Self::ParentLoop | Self::ParentMismatch(_) => "INV-3",
+            Self::TwoParents(_) | Self::ParentLoop | Self::ParentMismatch(_) | Self::LevelMismatch(_) => {
+                "INV-3"
+            }
             Self::Lost(..) => "INTENT-2",
             Self::NameIndex => "VIEW-7",
-            Self::Unreconciled => "SYNC-5",
+            Self::Unreconciled | Self::Missing(_) => "SYNC-5",
         }
     }
 
@@ -59,6 +67,9 @@ impl Property {
             Self::TwoParents(_) => "a node has two kinematic parents, and replicas answer by different ones",
             Self::ParentLoop => "the parents form a circle: a transform never ends",
             Self::ParentMismatch(_) => "a kinematic edge is shown and `parent` and `level` do not say so",
+            Self::LevelMismatch(_) => "a node's level does not follow from its parent's",
+            Self::Orphan(_) => "a node's parent is deleted",
+            Self::Missing(_) => "a replica has joined and does not show a node of the graph that it joined",
             Self::Lost(..) => "a write that everybody received is shown by nobody",
             Self::OnlyAt(..) => "an attribute is shown by one replica only",
             Self::NameIndex => "a node is present and its name leads elsewhere",
@@ -93,6 +104,18 @@ impl Property {
             Self::ParentLoop => each.find_map(|at| parent_loop(at).map(|node| said(at, &format!("#{node}")))),
             Self::ParentMismatch(child) => {
                 each.find_map(|at| mismatch(at, child).map(|what| said(at, &what)))
+            }
+            Self::LevelMismatch(child) => {
+                each.find_map(|at| wrong_level(at, child).map(|what| said(at, &what)))
+            }
+            Self::Orphan(child) => each.find_map(|at| {
+                let parent = parent(at, child).filter(|parent| at.deleted.contains(parent))?;
+                Some(said(at, &format!("#{child} below #{parent}")))
+            }),
+            Self::Missing(node) => {
+                let (first, last) = (replicas.first()?, replicas.last()?);
+                let missing = first.node(node).is_some() && last.node(node).is_none();
+                missing.then(|| said(last, &format!("#{node}")))
             }
             Self::Lost(node, key, value) => {
                 let shows = |at: &&Replica| is_number(at, node, key, value);
@@ -227,6 +250,19 @@ fn mismatch(at: &Replica, child: NodeId) -> Option<String> {
     let says = parent(at, child);
     let level = at.attribute(child, LEVEL);
     (says != Some(from) || level.is_none()).then(|| format!("#{from} -RT-> #{child}, parent {says:?}"))
+}
+
+fn level(at: &Replica, node: NodeId) -> Option<i64> {
+    match at.attribute(node, LEVEL)?.value {
+        Value::Number(level) => Some(level),
+        Value::Node(_) => None,
+    }
+}
+
+fn wrong_level(at: &Replica, child: NodeId) -> Option<String> {
+    let [from] = kinematic_parents(at, child)[..] else { return None };
+    let (above, below) = (level(at, from)?, level(at, child)?);
+    (below != above + 1).then(|| format!("#{child} at level {below}, its parent #{from} at level {above}"))
 }
 
 fn is_number(at: &Replica, node: NodeId, key: Key, value: i64) -> bool {

@@ -105,6 +105,8 @@ pub struct Joiner {
     pub hears: Vec<usize>,
     /// What must be so at the server before it is asked.
     pub asks: Guard,
+    /// Whether it counts as joined once it has the answer, which another thread then takes in.
+    pub early: bool,
 }
 
 /// What the network and the machines may do.

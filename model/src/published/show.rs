@@ -79,6 +79,8 @@ pub enum Happening {
     Find(usize),
     /// The server encodes its whole graph for the joiner.
     Encode,
+    /// The joiner has the answer, and its user is told that it has joined.
+    Tell,
     /// A replica, by position, restarts.
     Restart(usize),
 }
@@ -104,6 +106,7 @@ impl Network {
             Event::Lose { letter } => Happening::Lose(copy(letter)),
             Event::Find { replica } => Happening::Find(replica),
             Event::Encode => Happening::Encode,
+            Event::Tell => Happening::Tell,
             Event::Restart { replica } => Happening::Restart(replica),
         }
     }
@@ -148,6 +151,7 @@ impl Setup {
             Happening::Lose(letter) => format!("{} never receives {}", agent(letter.to), copy(letter)),
             Happening::Find(replica) => format!("the joiner finds {}", agent(*replica)),
             Happening::Encode => "the server encodes its whole graph for the joiner".into(),
+            Happening::Tell => "the joiner has the answer, and is told that it has joined".into(),
             Happening::Restart(replica) => format!("{} restarts", agent(*replica)),
         }
     }

@@ -156,7 +156,8 @@ impl Network {
     fn arrivals(&mut self, world: &World, out: &mut Vec<(Event, Moment)>) {
         for at in 0..world.letters.len() {
             let letter = world.letters[at];
-            if !world.may_arrive(at, self.order) || self.is_slow(world, letter) {
+            let waits = self.is_slow(world, letter) || self.waits_to_be_told(world, letter);
+            if waits || !world.may_arrive(at, self.order) {
                 continue;
             }
             let mut gone = world.clone();

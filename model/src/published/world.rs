@@ -35,6 +35,8 @@ pub(super) struct World {
     pub(super) heard: u8,
     /// Whether the server has encoded its graph.
     pub(super) encoded: bool,
+    /// Whether an early joiner has been told that it has joined.
+    pub(super) told: bool,
     /// Whether somebody has restarted.
     pub(super) restarted: bool,
     /// How many messages were lost.
@@ -111,6 +113,8 @@ pub enum Event {
     },
     /// The server encodes its whole graph for the joiner, and sends it.
     Encode,
+    /// The joiner has the answer, and its user is told that it has joined.
+    Tell,
     /// A replica stops and starts again from what it had at first; what was under way to it is gone.
     Restart {
         /// Who.
