@@ -4,7 +4,7 @@
 //! whenever a message of the published call does. After each event every view is judged. At the end all
 //! states must be equal; where messages were lost or missed, after everybody has resynchronised.
 
-use crate::published::{Copy, Happening, Moment, Network, NodeId, Operation, Setup};
+use crate::published::{Envelope, Happening, Moment, Network, NodeId, Operation, Setup};
 use crate::search::Space;
 use dsr_core::invariant::check_view;
 use dsr_core::{
@@ -50,7 +50,7 @@ pub fn run_checked(setup: &Setup, trace: &[Happening]) -> Option<Checked> {
     Some(replay.end(setup, &network, at))
 }
 
-fn new_copies(before: &[Copy], after: Vec<Copy>) -> Vec<Copy> {
+fn new_copies(before: &[Envelope], after: Vec<Envelope>) -> Vec<Envelope> {
     after.into_iter().filter(|copy| !before.contains(copy)).collect()
 }
 
@@ -65,7 +65,7 @@ struct Replay {
     /// The attribute that the copy kept by a user was asked for.
     copies: BTreeMap<usize, NodeId>,
     /// The deltas behind messages.
-    deltas: Vec<(Copy, Delta)>,
+    deltas: Vec<(Envelope, Delta)>,
     outcome: Checked,
 }
 
@@ -94,7 +94,7 @@ impl Replay {
         replay
     }
 
-    fn happen(&mut self, setup: &Setup, happening: &Happening, sent: Vec<Copy>) {
+    fn happen(&mut self, setup: &Setup, happening: &Happening, sent: Vec<Envelope>) {
         match happening {
             Happening::Call(replica, call) => {
                 let calls = setup.plays.get(*replica).map(|play| &play.calls);

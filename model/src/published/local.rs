@@ -106,6 +106,8 @@ impl Replica {
     }
 
     /// Deletes a node and, by the index of edges, the edges that end at it.
+    ///
+    /// What is held back for the node stays held back: only what arrives is described to drop it.
     fn delete_node(&mut self, id: NodeId, now: Time) -> Sent {
         let Some(register) = self.nodes.get_mut(&id) else { return Ok(None) };
         let delta = register.reset();

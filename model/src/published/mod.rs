@@ -44,7 +44,7 @@ pub use property::Property;
 pub use register::{Payload, REGISTER_ID, Register};
 pub use replica::{NodeCopy, Replica, Shown, ShownEdge, ShownNode};
 pub use setup::{CALL_TIME, Guard, Joiner, Order, Play, Powers, REPLICAS_MAX, Setup, When};
-pub use show::{Copy, Happening};
+pub use show::{Envelope, Happening};
 pub use space::{Moment, Network};
 pub use variant::{Stamps, Variant, Workers};
 pub use world::{Event, Letter};

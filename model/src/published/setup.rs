@@ -196,7 +196,9 @@ impl Setup {
         let Some((first, others)) = replicas.split_first_mut() else { return replicas };
         for (time, operation) in (0..).zip(&self.before) {
             let messages = first.call(operation, time).ok().flatten().unwrap_or_default();
-            for (_, other) in (1..).zip(others.iter_mut()).filter(|(at, _)| Some(*at) != joiner) {
+            let hears = |at: usize| Some(at + 1) != joiner;
+            let others = others.iter_mut().enumerate().filter(|(at, _)| hears(*at));
+            for (_, other) in others {
                 let received = messages.iter().try_for_each(|message| other.receive(message));
                 other.crash = other.crash.or(received.err());
             }

@@ -72,9 +72,9 @@ pub enum Happening {
     /// A replica, by position, makes the how-manieth of its calls.
     Call(usize, usize),
     /// A message arrives, once or not for the last time.
-    Deliver(Copy, bool),
+    Deliver(Envelope, bool),
     /// A message is lost.
-    Lose(Copy),
+    Lose(Envelope),
     /// The joiner finds a replica, by position.
     Find(usize),
     /// The server encodes its whole graph for the joiner.
@@ -85,9 +85,9 @@ pub enum Happening {
     Restart(usize),
 }
 
-/// A copy of a message.
+/// A copy of a message, with its sender and its receiver.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Copy {
+pub struct Envelope {
     /// Who sent it, by position.
     pub from: usize,
     /// Who gets it, by position.
@@ -99,7 +99,8 @@ pub struct Copy {
 impl Network {
     /// An event with its message.
     pub fn happening(&self, event: &Event) -> Happening {
-        let copy = |letter: Letter| Copy { from: letter.from, to: letter.to, message: self.message(letter) };
+        let copy =
+            |letter: Letter| Envelope { from: letter.from, to: letter.to, message: self.message(letter) };
         match *event {
             Event::Call { replica, call } => Happening::Call(replica, call),
             Event::Deliver { letter, again } => Happening::Deliver(copy(letter), again),
@@ -112,10 +113,10 @@ impl Network {
     }
 
     /// What is under way.
-    pub fn letters(&self, moment: Moment) -> Vec<Copy> {
+    pub fn letters(&self, moment: Moment) -> Vec<Envelope> {
         let letters = self.letters_at(moment).into_iter();
         letters
-            .map(|letter| Copy { from: letter.from, to: letter.to, message: self.message(letter) })
+            .map(|letter| Envelope { from: letter.from, to: letter.to, message: self.message(letter) })
             .collect()
     }
 
@@ -137,7 +138,7 @@ impl Setup {
     pub fn line(&self, happening: &Happening) -> String {
         let who = |replica: usize| self.agents.get(replica).map(|agent| format!("agent {agent}"));
         let agent = |replica: usize| who(replica).unwrap_or_default();
-        let copy = |copy: &Copy| format!("{} from {}", copy.message, agent(copy.from));
+        let copy = |copy: &Envelope| format!("{} from {}", copy.message, agent(copy.from));
         match happening {
             Happening::Call(replica, call) => {
                 let calls = self.plays.get(*replica).map(|play| &play.calls);
