@@ -4,7 +4,7 @@
 
 use dsr_model::gallery::rows;
 use dsr_model::published::{
-    Network, Operation, Order, Play, Powers, Property, Setup, Stamps, Variant, When, Workers,
+    Guard, Network, Operation, Order, Play, Powers, Property, Setup, Stamps, Variant, When, Workers,
 };
 use dsr_model::search::{Space, find_fault};
 
@@ -48,6 +48,23 @@ fn law_two_writers_with_distinct_agents_converge() {
     assert_eq!(found, None);
     setup.variant.stamps = Stamps::Zero;
     assert_eq!(shortest(setup).0, Some(4), "a tie of agent 0");
+}
+
+/// Three agents with numbers of their own that only write converge, unless one writes on a gap: then registers
+/// end empty or differ, though each pair keeps its order and nothing is lost.
+#[test]
+fn law_writers_converge_unless_one_writes_on_a_gap() {
+    let written = |guard: Guard| {
+        let play = |values: &[i64]| {
+            Play::script(&values.iter().map(|&value| (guard, set(value))).collect::<Vec<_>>())
+        };
+        let plays = vec![play(&[40]), play(&[20, 30]), play(&[99])];
+        open(&[1, 2, 3], &[BARE], plays, Order::Pair, Property::Divergence)
+    };
+    let (found, moments) = shortest(written(Guard::Gapless(1, "x")));
+    println!("{moments} moments");
+    assert_eq!(found, None);
+    assert_eq!(shortest(written(Guard::Always)).0, Some(12));
 }
 
 /// Three writes never empty a register that the third replica has not seen, however they are shared out; four

@@ -20,6 +20,8 @@ pub enum Guard {
     Shows(NodeId, Key, i64),
     /// It shows a node, without this attribute.
     Lacks(NodeId, Key),
+    /// It has no gap in what it has seen of an attribute.
+    Gapless(NodeId, Key),
     /// It does not show an edge of this start, end and type.
     Unlinked(NodeId, NodeId, Kind),
     /// It shows such an edge.
@@ -44,6 +46,10 @@ impl Guard {
             }
             Self::Lacks(node, key) => {
                 replica.node(node).is_some_and(|node| !node.attributes.contains_key(key))
+            }
+            Self::Gapless(node, key) => {
+                let register = replica.node(node).and_then(|node| node.attributes.get(key));
+                register.is_none_or(|register| register.context().cloud().next().is_none())
             }
             Self::Unlinked(from, to, kind) => replica.edge((from, to, kind)).is_none(),
             Self::Linked(from, to, kind) => replica.edge((from, to, kind)).is_some(),
