@@ -11,8 +11,7 @@ Each row is one way in which replicas of the published system go wrong. A breadt
 small network may do finds a shortest schedule for it; the same schedule then runs on the checked semantics.";
 
 const STATUS: &str = "\
-Exit status: 0 every row was found and the checked semantics holds, 1 one was not or it does not,
-3 wrong usage";
+Exit status: 0 every row was found, only with its cause, and the checked semantics holds; 1 otherwise; 3 wrong usage";
 
 /// Arguments of `dsr gallery`.
 #[derive(clap::Args, Debug)]
@@ -47,7 +46,9 @@ impl Arguments {
 }
 
 fn is_fine(report: &RowReport) -> bool {
-    report.found == Found::Search && report.checked.as_ref().is_some_and(|checked| checked.broken.is_none())
+    let holds = report.checked.as_ref().is_some_and(|checked| checked.broken.is_none());
+    let needs_its_cause = report.control.is_none_or(|control| control.ended && !control.found);
+    report.found == Found::Search && holds && needs_its_cause
 }
 
 fn checked(report: &RowReport) -> Option<String> {
@@ -84,7 +85,12 @@ fn add_schedule(text: &mut String, report: &RowReport) {
         add(text, format_args!("{:>4}. {line}\n", at + 1));
     }
     if let Some(breach) = &report.breach {
-        add(text, format_args!("[{}] {}\n\n", breach.clause, breach.detail));
+        add(text, format_args!("[{}] {}\n", breach.clause, breach.detail));
+    }
+    if let Some(control) = report.control {
+        let found = if control.found { "found as well" } else { "nothing is found" };
+        let (what, states) = (control.what, control.states);
+        add(text, format_args!("Where {what}, {found} in {states} states.\n\n"));
     }
 }
 
@@ -103,5 +109,8 @@ fn row_json(report: &RowReport) -> Value {
         "detail": report.breach.as_ref().map(|breach| &breach.detail),
         "schedule": report.lines,
         "checked": checked(report),
+        "control": report.control.map(|control| json!({
+            "what": control.what, "found": control.found, "ended": control.ended, "states": control.states,
+        })),
     })
 }

@@ -26,7 +26,7 @@ fn empty() -> Vec<Row> {
     vec![
         Row::new("1", "a write on a gap empties the register elsewhere", on(NODE))
             .unless("messages arrive after what caused them", causal),
-        Row::new("1b", "the same at first contact", on(BARE))
+        Row::new("1b", "a first write, on a gap, empties the register elsewhere", on(BARE))
             .unless("messages arrive after what caused them", causal),
     ]
 }

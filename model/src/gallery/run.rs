@@ -57,6 +57,8 @@ pub struct RowReport {
     pub breach: Option<Breach>,
     /// What the checked semantics does with the same schedule.
     pub checked: Option<Checked>,
+    /// The same search without the cause.
+    pub control: Option<ControlReport>,
 }
 
 /// Searches for a row's anomaly.
@@ -75,6 +77,7 @@ pub fn run_row(row: &Row) -> RowReport {
         lines: Vec::new(),
         breach: None,
         checked: None,
+        control: run_control(row),
     };
     let setup = &row.setup;
     report.bound = bound(setup);
@@ -98,6 +101,8 @@ pub fn run_row(row: &Row) -> RowReport {
 /// What a search of a row's control came to.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct ControlReport {
+    /// What is different from the row's search.
+    pub what: &'static str,
     /// Whether it found the anomaly after all.
     pub found: bool,
     /// Whether it came to its end.
@@ -115,7 +120,7 @@ pub fn run_control(row: &Row) -> Option<ControlReport> {
     let found = find_fault(&mut network, MOMENTS_MAX).is_some();
     let states = network.moments();
     let ended = states < MOMENTS_MAX as u64;
-    Some(ControlReport { found, ended, states, judged: network.states_judged() })
+    Some(ControlReport { what: control.what, found, ended, states, judged: network.states_judged() })
 }
 
 /// How far a search goes, in words.
@@ -128,7 +133,8 @@ fn bound(setup: &Setup) -> String {
         Order::Topic => "order by topic",
         Order::Pool => "order by topic, nodes and edges in any",
     };
-    let mut words = vec![format!("{} replicas", setup.replicas()), format!("{calls} calls"), order.into()];
+    let several = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+    let mut words = vec![several(setup.replicas(), "replica"), several(calls, "call"), order.into()];
     if powers.losses_max > 0 {
         words.push(format!("{} lost", powers.losses_max));
     }
