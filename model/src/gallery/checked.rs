@@ -2,9 +2,10 @@
 //!
 //! Each call becomes a mutation, made by the same replica at the same point; its delta arrives wherever and
 //! whenever a message of the published call does. After each event every view is judged. At the end all
-//! states must be equal; where messages were lost or missed, after everybody has resynchronised.
+//! states must be equal; where messages were lost or missed, after everybody has resynchronised. What a row
+//! says of a single write or node must not come true either.
 
-use crate::published::{Envelope, Happening, Moment, Network, NodeId, Operation, Setup};
+use crate::published::{Envelope, Happening, Moment, Network, NodeId, Operation, Property, Setup};
 use crate::search::Space;
 use dsr_core::invariant::check_view;
 use dsr_core::{
@@ -189,6 +190,26 @@ impl Replay {
         })
     }
 
+    /// What a row says of one node, where the invariants do not cover it: a write that nobody superseded is
+    /// live everywhere, hidden by a greater one at most; what was removed is not shown.
+    fn judge_property(&self, property: Property) -> Option<String> {
+        let vertex = |node: NodeId| self.vertices.get(&node).copied();
+        self.states.iter().find_map(|state| {
+            let seen = view(state, &self.dictionary);
+            match property {
+                Property::Lost(node, key, value) => {
+                    let writes = seen.attribute_writes(vertex(node)?, key);
+                    let is_live = writes.iter().any(|(_, write)| write.value == number(value));
+                    (!is_live).then(|| format!("INTENT-2: {key} = {value} is lost"))
+                }
+                Property::Revived(node) => {
+                    seen.has_vertex(vertex(node)?).then(|| format!("STATE-3: #{node} is shown"))
+                }
+                _ => None,
+            }
+        })
+    }
+
     /// Judges the end: equal at once if everything has arrived, else after resynchronisation.
     fn end(mut self, setup: &Setup, network: &Network, at: Moment) -> Checked {
         for copy in network.letters(at) {
@@ -203,6 +224,7 @@ impl Replay {
         }
         let differ = self.states.iter().any(|state| *state != self.states[0]);
         let broken = self.judge().or_else(|| differ.then(|| "JOIN-5: the replicas differ".into()));
+        let broken = broken.or_else(|| self.judge_property(setup.property));
         Checked { broken, ..self.outcome }
     }
 
