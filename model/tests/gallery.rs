@@ -57,7 +57,7 @@ fn law_both_engines_count_the_same() {
     for row in rows() {
         let setup = row.control.unwrap().setup;
         let counts =
-            count(&mut Network::new(setup.clone()), &Progress::new(Limits::default())).unwrap().unwrap();
+            count(&mut Network::new(setup.clone()), 0, &Progress::new(Limits::default())).unwrap().unwrap();
         let (_, explored) = explore(Network::new(setup), &Arc::new(Progress::new(Limits::default())));
         assert!(explored.fault.is_none() && !explored.cut);
         assert_eq!((explored.unique, explored.generated), (counts.unique, counts.generated), "{}", row.row);
