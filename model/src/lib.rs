@@ -9,6 +9,7 @@ pub mod histories;
 pub mod job;
 pub mod progress;
 pub mod published;
+pub mod render;
 pub mod scenario;
 pub mod schedules;
 pub mod search;

@@ -1,6 +1,10 @@
 //! Traces: a run as people and programs read it, step by step, up to the clause that breaks.
 //! `[spec: TRACE-1]`
 
+mod read;
+
+pub use read::TraceError;
+
 use crate::histories::{Choice, FoundFault, Histories};
 use crate::search::Counterexample;
 use crate::semantics::{Breach, Semantics};
