@@ -105,6 +105,11 @@ fn text_of(bytes: Vec<u8>) -> Result<String, InputError> {
     })
 }
 
+/// The text of a file of at most `max` bytes.
+pub(crate) fn text(file: &str, max: usize, form: &'static str) -> Result<String, InputError> {
+    text_of(bytes_of(file, max, form)?)
+}
+
 /// What bytes hold: a binary state starts with a byte that no text starts with, and a JSON state with a key
 /// that no scene has.
 fn form_of(bytes: &[u8]) -> Form {
@@ -147,7 +152,7 @@ pub(crate) fn dictionary(name: &str) -> Result<Dictionary, InputError> {
         "published" => Ok(Dictionary::published()),
         "aal" => Ok(Dictionary::aal()),
         file => {
-            let text = text_of(bytes_of(file, DICTIONARY_BYTES_MAX, "dictionary")?)?;
+            let text = text(file, DICTIONARY_BYTES_MAX, "dictionary")?;
             serde_json::from_str(&text).map_err(InputError::Dictionary)
         }
     }

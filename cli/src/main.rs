@@ -7,6 +7,7 @@ mod input;
 mod output;
 mod scene;
 mod status;
+mod trace;
 
 use clap::{Parser, Subcommand};
 use status::Status;
@@ -30,6 +31,7 @@ enum Command {
     Check(check::Arguments),
     Alarms(alarms::Arguments),
     Gallery(gallery::Arguments),
+    Trace(trace::Arguments),
     /// Checks, shows, converts and compares scenes: graph files of the published system
     #[command(subcommand)]
     Scene(scene::Command),
@@ -41,6 +43,7 @@ impl Command {
             Self::Check(arguments) => arguments.run(),
             Self::Alarms(arguments) => arguments.run(),
             Self::Gallery(arguments) => arguments.run(),
+            Self::Trace(arguments) => arguments.run(),
             Self::Scene(command) => command.run(),
         }
     }

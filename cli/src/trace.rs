@@ -1,0 +1,125 @@
+//! `dsr trace`: counterexamples for people.
+
+use crate::input::{self, InputError};
+use crate::output::{err, out};
+use crate::status::Status;
+use dsr_model::render::{self, RenderError};
+use dsr_model::trace::{Trace, TraceError};
+use std::path::PathBuf;
+
+const ABOUT: &str = "\
+When `dsr check` finds a broken clause, it writes the shortest way there to a trace file (into dsr-traces, or where \
+--traces says). This prints such a file as a diagram: replicas side by side, time downwards, an arrow for each message \
+that arrives, and what breaks at the end.";
+
+const AFTER: &str = r"Examples:
+  dsr trace dsr-traces/01-JOIN-3.trace.json                               in the terminal
+  dsr trace dsr-traces/01-JOIN-3.trace.json --to svg --output join-3.svg  for a browser
+
+For ShiViz (https://bestchai.bitbucket.io/shiviz/), paste the log and this regular expression:
+  (?<event>.*)\n(?<host>\S*) (?<clock>\{.*\})
+
+Exit status: 0 printed, 3 otherwise. Traces are limited to 64 MiB.";
+
+/// The most bytes of a trace.
+const BYTES_MAX: usize = 64 << 20;
+
+/// Arguments of `dsr trace`.
+#[derive(clap::Args, Debug)]
+#[command(about = "Draws a counterexample that `dsr check` has written", long_about = ABOUT, after_help = AFTER)]
+pub(crate) struct Arguments {
+    /// A trace file, or `-` for standard input
+    file: String,
+    /// What it is drawn as
+    #[arg(long, value_enum, default_value_t = Target::Text)]
+    to: Target,
+    /// The file to write, instead of standard output
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// What a trace is drawn as.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
+enum Target {
+    /// A diagram for the terminal
+    Text,
+    /// A sequence diagram for Mermaid, as in Markdown on many sites
+    Mermaid,
+    /// A drawing for a browser
+    Svg,
+    #[value(help = "A log with vector clocks for ShiViz")]
+    Shiviz,
+}
+
+impl From<Target> for render::Target {
+    fn from(target: Target) -> Self {
+        match target {
+            Target::Text => Self::Text,
+            Target::Mermaid => Self::Mermaid,
+            Target::Svg => Self::Svg,
+            Target::Shiviz => Self::Shiviz,
+        }
+    }
+}
+
+/// Why nothing is drawn.
+#[derive(Debug, thiserror::Error)]
+enum Refusal {
+    #[error(transparent)]
+    Input(#[from] InputError),
+    #[error(transparent)]
+    Trace(#[from] TraceError),
+    #[error(transparent)]
+    Render(#[from] RenderError),
+}
+
+impl Refusal {
+    fn remedy(&self) -> &'static str {
+        match self {
+            Self::Input(InputError::TooLarge { .. }) => "check that it is a trace file",
+            Self::Input(error) => error.remedy(),
+            Self::Trace(TraceError::Syntax { .. }) => {
+                "check that the file is complete, or run `dsr check` again"
+            }
+            Self::Trace(TraceError::NoFormat | TraceError::OtherFormat { .. }) => {
+                "give a file that `dsr check` wrote for L1 or L2; those of L0 and of scenarios have another form"
+            }
+            Self::Trace(TraceError::OtherVersion { .. }) => {
+                "use the version of dsr that wrote the file, or run `dsr check` again"
+            }
+            Self::Render(RenderError::TooWide { .. }) => "use --to svg",
+            Self::Trace(TraceError::Form { .. }) | Self::Render(_) => {
+                "correct the file (TRACE-1 in spec/trace.md has the form), or run `dsr check` again"
+            }
+        }
+    }
+}
+
+impl Arguments {
+    pub(crate) fn run(&self) -> Status {
+        let rendered = match self.rendered() {
+            Ok(rendered) => rendered,
+            Err(refusal) => {
+                err(format_args!("{}: {refusal}\n  remedy: {}", self.file, refusal.remedy()));
+                return Status::Usage;
+            }
+        };
+        let Some(path) = &self.output else {
+            out(&rendered);
+            return Status::Claimed;
+        };
+        if let Err(error) = std::fs::write(path, rendered) {
+            let path = path.display();
+            err(format_args!(
+                "{path}: cannot write: {error}\n  remedy: check the path, the permissions and the space"
+            ));
+            return Status::Usage;
+        }
+        Status::Claimed
+    }
+
+    fn rendered(&self) -> Result<String, Refusal> {
+        let trace = Trace::read(&input::text(&self.file, BYTES_MAX, "trace")?)?;
+        Ok(render::render(&trace, self.to.into())?)
+    }
+}
