@@ -7,39 +7,10 @@
     reason = "a test that cannot go on says where"
 )]
 
-use std::io::Write;
+mod common;
+
+use common::{dsr, dsr_with};
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
-
-/// What a run leaves.
-#[derive(Debug)]
-struct Run {
-    status: i32,
-    out: String,
-    err: String,
-}
-
-fn dsr_with(arguments: &[&str], input: &[u8]) -> Run {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_dsr"))
-        .args(arguments)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut stdin = child.stdin.take().unwrap();
-    let input = input.to_vec();
-    // In a thread, so that neither side waits for the other; a command that reads nothing closes the pipe.
-    let writer = std::thread::spawn(move || drop(stdin.write_all(&input)));
-    let output = child.wait_with_output().unwrap();
-    writer.join().unwrap();
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    Run { status: output.status.code().unwrap(), out: text(&output.stdout), err: text(&output.stderr) }
-}
-
-fn dsr(arguments: &[&str]) -> Run {
-    dsr_with(arguments, b"")
-}
 
 #[track_caller]
 fn check(arguments: &[&str], input: &str, status: i32, out: &str, err: &str) {

@@ -7,27 +7,15 @@
     reason = "a test that cannot go on says where"
 )]
 
+mod common;
+
+use common::dsr;
 use dsr_core::MutationKind;
 use dsr_model::alarms::{self, A, B};
 use dsr_model::histories::{Bound, HistoryRun};
 use dsr_model::progress::{Limits, Progress};
 use std::path::PathBuf;
-use std::process::Command;
 use std::sync::Arc;
-
-/// What a run leaves.
-#[derive(Debug)]
-struct Run {
-    status: i32,
-    out: String,
-    err: String,
-}
-
-fn dsr(arguments: &[&str]) -> Run {
-    let output = Command::new(env!("CARGO_BIN_EXE_dsr")).args(arguments).output().unwrap();
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    Run { status: output.status.code().unwrap(), out: text(&output.stdout), err: text(&output.stderr) }
-}
 
 /// A counterexample as `dsr check` writes it, from a core broken on purpose.
 fn counterexample() -> String {

@@ -7,31 +7,14 @@
     reason = "a test that cannot go on has failed"
 )]
 
+mod published_common;
+
 use dsr_model::published::{
-    Attribute, Crash, Dot, Message, Node, NodeName, Operation, Payload, Register, Replica, Stamps, Value,
-    Variant, Workers,
+    Attribute, Crash, Message, Node, NodeName, Operation, Payload, Register, Replica, Stamps, Value, Variant,
+    Workers,
 };
+use published_common::{counters, dot, number, of};
 use std::collections::{BTreeMap, BTreeSet};
-
-fn dot(n: u32) -> Dot {
-    Dot { id: 0, n }
-}
-
-fn of(agent: u32, value: i64) -> Attribute {
-    Attribute { value: Value::Number(value), agent }
-}
-
-fn counters(register: &Register<Attribute>) -> (Option<u32>, Vec<u32>) {
-    let context = register.context();
-    (context.counter(0), context.cloud().map(|dot| dot.n).collect())
-}
-
-fn number(register: &Register<Attribute>) -> Option<i64> {
-    register.value().map(|held| match held.value {
-        Value::Number(number) => number,
-        Value::Node(_) => panic!("a number was written"),
-    })
-}
 
 #[test]
 fn oracle_nodes_compare_without_name_and_agent() {

@@ -7,34 +7,10 @@
     reason = "a test that cannot go on has failed"
 )]
 
-use dsr_model::published::{Attribute, Context, Crash, Dot, Register, Value};
+mod published_common;
 
-fn dot(n: u32) -> Dot {
-    Dot { id: 0, n }
-}
-
-fn of(agent: u32, value: i64) -> Attribute {
-    Attribute { value: Value::Number(value), agent }
-}
-
-fn counters(register: &Register<Attribute>) -> (Option<u32>, Vec<u32>) {
-    let context = register.context();
-    (context.counter(0), context.cloud().map(|dot| dot.n).collect())
-}
-
-fn number(register: &Register<Attribute>) -> Option<i64> {
-    register.value().map(|held| match held.value {
-        Value::Number(number) => number,
-        Value::Node(_) => panic!("a number was written"),
-    })
-}
-
-/// A register written `times` times, and the deltas.
-fn written(times: u32) -> (Register<Attribute>, Vec<Register<Attribute>>) {
-    let mut register = Register::default();
-    let deltas = (1..=times).map(|n| register.write(of(1, n.into()))).collect();
-    (register, deltas)
-}
+use dsr_model::published::{Attribute, Context, Crash, Dot, Register};
+use published_common::{counters, dot, number, of, written};
 
 #[test]
 fn oracle_one_greater_dot_in_the_cloud_makes_smaller_ones_known() {
