@@ -150,8 +150,8 @@ fn first_unreached(
     vertices: &[VertexId],
     edges: impl Iterator<Item = (VertexId, VertexId)>,
 ) -> Option<VertexId> {
-    let mut neighbours: Vec<(VertexId, VertexId)> =
-        edges.flat_map(|(from, to)| [(from, to), (to, from)]).collect();
+    let mut neighbours: Vec<(VertexId, VertexId)> = Vec::with_capacity(4 * vertices.len());
+    neighbours.extend(edges.flat_map(|(from, to)| [(from, to), (to, from)]));
     neighbours.sort_unstable();
     let mut reached = vec![false; vertices.len()];
     let mut frontier = vec![VertexId::ROOT];
@@ -215,7 +215,8 @@ pub fn check_tree(view: &impl Shows) -> Result<(), Violation> {
 /// Child, parent and edge of each shown `RT` edge, by child.
 fn unique_parents(view: &impl Shows) -> Result<Vec<(VertexId, VertexId, EdgeId)>, Violation> {
     let kinematic = view.edges().iter().filter(|shown| shown.edge.is_rt());
-    let mut parents: Vec<_> = kinematic.map(|shown| (shown.edge.to, shown.edge.from, shown.id)).collect();
+    let mut parents = Vec::with_capacity(view.vertices().len());
+    parents.extend(kinematic.map(|shown| (shown.edge.to, shown.edge.from, shown.id)));
     parents.sort_unstable();
     match parents.windows(2).find(|pair| pair[0].0 == pair[1].0) {
         Some(pair) => Err(Violation::TwoParents { child: pair[0].0, first: pair[0].2, second: pair[1].2 }),

@@ -97,22 +97,25 @@ fn key_of<'a>(shown: &ShownEdge<'a>) -> (VertexId, VertexId, &'a str) {
 /// The root, then every vertex held. `[spec: VIEW-1.1]`
 fn live_vertices(state: &State) -> Vec<VertexId> {
     let held = state.records().filter(|(_, record)| matches!(record, Record::Vertex(_)));
-    core::iter::once(VertexId::ROOT).chain(held.map(|(dot, _)| VertexId(dot))).collect()
+    let mut vertices = Vec::with_capacity(state.len() + 1);
+    vertices.push(VertexId::ROOT);
+    vertices.extend(held.map(|(dot, _)| VertexId(dot)));
+    vertices
 }
 
 /// Every edge claim whose ends live, by dot: what is pending, or anchored to no vertex, is invisible.
 /// No dictionary hides a label. `[spec: VIEW-1.1]` `[spec: DICT-4]` `[spec: INV-2]` `[spec: INV-4]`
 fn visible_edges<'s>(state: &'s State, vertices: &[VertexId]) -> Vec<ShownEdge<'s>> {
     let lives = |vertex: VertexId| vertices.binary_search(&vertex).is_ok();
-    state
-        .records()
-        .filter_map(|(dot, record)| match record {
-            Record::Edge(edge) if edge.from != edge.to && lives(edge.from) && lives(edge.to) => {
-                Some(ShownEdge { id: EdgeId(dot), edge })
-            }
-            _ => None,
-        })
-        .collect()
+    let visible = state.records().filter_map(|(dot, record)| match record {
+        Record::Edge(edge) if edge.from != edge.to && lives(edge.from) && lives(edge.to) => {
+            Some(ShownEdge { id: EdgeId(dot), edge })
+        }
+        _ => None,
+    });
+    let mut edges = Vec::with_capacity(state.len());
+    edges.extend(visible);
+    edges
 }
 
 /// All names, and a repair for each vertex that its name does not find. `[spec: VIEW-7]`
@@ -121,8 +124,8 @@ fn names_of<'s>(
     vertices: &[VertexId],
     repairs: &mut Vec<Repair>,
 ) -> Vec<(&'s Name, u64, VertexId)> {
-    let mut names: Vec<_> =
-        vertices.iter().filter_map(|&id| state.vertex(id.0).map(|v| (&v.name, v.stamp, id))).collect();
+    let mut names = Vec::with_capacity(vertices.len());
+    names.extend(vertices.iter().filter_map(|&id| state.vertex(id.0).map(|v| (&v.name, v.stamp, id))));
     names.sort_unstable();
     for namesakes in names.chunk_by(|l, r| l.0 == r.0) {
         let [(name, _, oldest), younger @ ..] = namesakes else { continue };

@@ -31,9 +31,12 @@ pub(super) fn shown<'s>(
     repairs: &mut Vec<Repair>,
 ) -> Vec<ShownEdge<'s>> {
     let symbolic = candidates.iter().filter(|claim| !claim.edge.is_rt());
-    let mut claims: Vec<_> = symbolic
-        .map(|claim| (Register::of(claim.edge, dictionary), Reverse((claim.edge.stamp, claim.id)), *claim))
-        .collect();
+    let mut claims = Vec::with_capacity(candidates.len());
+    claims.extend(
+        symbolic.map(|claim| {
+            (Register::of(claim.edge, dictionary), Reverse((claim.edge.stamp, claim.id)), *claim)
+        }),
+    );
     claims.sort_unstable_by(|l, r| (&l.0, l.1).cmp(&(&r.0, r.1)));
     let mut shown = Vec::with_capacity(claims.len());
     for register in claims.chunk_by(|l, r| l.0 == r.0) {

@@ -39,8 +39,9 @@ pub(super) fn grow<'s>(
     vertices: &[VertexId],
     repairs: &mut Vec<Repair>,
 ) -> Tree<'s> {
-    let mut claims: Vec<ShownEdge<'s>> =
-        candidates.iter().filter(|claim| claim.edge.is_rt() && !claim.edge.to.is_root()).copied().collect();
+    let kinematic = candidates.iter().filter(|claim| claim.edge.is_rt() && !claim.edge.to.is_root());
+    let mut claims: Vec<ShownEdge<'s>> = Vec::with_capacity(candidates.len());
+    claims.extend(kinematic.copied());
     claims.sort_unstable_by_key(|claim| Reverse((claim.edge.stamp, claim.id)));
     let mut placements = vec![Placement::Outside; vertices.len()];
     let mut trees = UnionFind::new(vertices.len());

@@ -134,6 +134,11 @@ impl Shapes {
         &self.shape
     }
 
+    /// The last shape that was made.
+    pub(super) fn last(&self) -> &[u32] {
+        &self.shape
+    }
+
     /// The permutation of replicas under which the last shape was told.
     pub(super) fn by(&self) -> usize {
         self.by
