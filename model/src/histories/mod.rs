@@ -228,8 +228,8 @@ impl<S: Semantics> Histories<S> {
 
     /// Replica states judged, of how many delivered subsets, by how many diamonds, and how many of the sample
     /// that shapes saved were judged all the same.
-    pub fn judged(&self) -> Judged {
-        Judged {
+    pub fn judged(&self) -> JudgedCounts {
+        JudgedCounts {
             states: self.tables.judged,
             subsets: self.judge.subsets,
             diamonds: self.judge.diamonds,
@@ -401,9 +401,9 @@ impl<S: Semantics> Histories<S> {
     }
 }
 
-/// What a search has judged.
+/// How much a search has judged.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub struct Judged {
+pub struct JudgedCounts {
     /// Replica states, one of each shape.
     pub states: u64,
     /// Delivered subsets of histories that they stand for.
