@@ -3,6 +3,7 @@
 pub mod alarms;
 pub mod algebra;
 pub mod checked;
+pub mod course;
 pub mod focus;
 pub mod gallery;
 pub mod histories;
