@@ -1,267 +1,264 @@
-//! Traces: a run as people and programs read it, step by step, up to the clause that breaks.
-//! `[spec: TRACE-1]`
+//! Traces: a run as people and programs read it, step by step, up to what is found. `[spec: TRACE-1]`
+//!
+//! | room | what |
+//! |---|---|
+//! | `record` | runs a [course](crate::course) and writes down what is seen |
+//! | `read` | reads a trace back and refuses what is none |
 
 mod read;
+mod record;
 
-pub use read::TraceError;
+pub use read::{TraceError, Unsound};
+pub use record::{CannotHappen, Recorder};
 
-use crate::histories::{Choice, FoundFault, Histories};
-use crate::search::Counterexample;
-use crate::semantics::{Breach, Semantics};
-use crate::tables::{DeltaId, StateId};
+use crate::graph::{Change, Graph};
 use crate::verdict::RunTrace;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use std::collections::BTreeMap;
 
+/// The name of the format.
+pub const FORMAT: &str = "dsr-trace";
 /// The version of the trace format.
-pub const TRACE_VERSION: u32 = 1;
+pub const TRACE_VERSION: u32 = 2;
 
 /// A run of replicas, step by step. Format version [`TRACE_VERSION`]. `[spec: TRACE-1]`
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Trace {
     /// Always `dsr-trace`.
     pub format: String,
     /// The format's version.
     pub version: u32,
+    /// What it shows, in words.
+    pub title: String,
     /// Whose semantics.
     pub semantics: String,
-    /// The layer that found it.
+    /// What it takes to run that semantics again from the same start; the form is that semantics' own.
+    pub setup: Value,
+    /// The layer that found it: `L1`, `L2`, `scenario`, `walks` or `gallery`.
     pub layer: String,
-    /// The replicas' names; observers only receive.
-    pub replicas: Vec<String>,
-    /// What every replica starts from.
-    pub initial: Value,
+    /// How far the search went that found it, in words.
+    pub bound: String,
+    /// The replicas; observers only receive.
+    pub replicas: Vec<TraceReplica>,
     /// What happens, in order.
     pub steps: Vec<TraceStep>,
-    /// The clause that does not hold after the last step.
-    pub breach: TraceBreach,
+    /// What is found after the last step.
+    pub finding: Finding,
 }
 
-/// One step of one replica.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+/// Who takes part. `[spec: TRACE-1]`
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TraceReplica {
+    /// Its name.
+    pub name: String,
+    /// What it shows at the start.
+    pub starts: Graph,
+}
+
+/// One step of one replica. `[spec: TRACE-1]`
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TraceStep {
     /// Who.
     pub replica: String,
     /// What.
-    pub act: Act,
-    /// What changed in the replica's view, a line each.
-    pub changes: Vec<String>,
+    pub does: Act,
+    /// What changed in what the replica shows.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub changes: Vec<Change>,
+    /// A hash of the replica's whole state after the step. `[spec: TRACE-2]`
+    pub state: String,
 }
 
-/// What a replica does.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+/// What a replica does. `[spec: TRACE-1]`
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Act {
-    /// Mutates and broadcasts.
+    /// Makes mutations, one after the other, and broadcasts them.
     Mutate {
-        /// The message that carries the delta.
-        message: String,
-        /// The mutation, for people.
+        /// The mutations, for people.
         text: String,
-        /// The mutation.
-        mutation: Value,
-        /// The delta.
-        delta: Value,
+        /// The mutations.
+        mutations: Vec<Value>,
+        /// The messages sent: none if nothing is to be told.
+        sends: Vec<Sent>,
     },
     /// Receives a message.
     Deliver {
         /// Which.
         message: String,
     },
-    /// Stops and starts again under a fresh incarnation.
-    Restart,
-    /// Asks a peer for what it is missing, by digest.
-    Resynchronise {
+    /// A message never arrives here.
+    Lose {
+        /// Which.
+        message: String,
+    },
+    /// Stops and starts again under its next incarnation.
+    Restart {
+        /// Whether with its state; else with what it started from.
+        keeps: bool,
+    },
+    /// Sends another replica what that one lacks.
+    Answer {
         /// Whom.
-        from: String,
-        /// What it got.
-        delta: Value,
+        to: String,
+        /// The messages sent.
+        sends: Vec<Sent>,
+    },
+    /// Something else.
+    Happen {
+        /// What.
+        text: String,
     },
 }
 
-/// The clause that does not hold.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+/// A message on its way. `[spec: TRACE-1]`
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct TraceBreach {
-    /// Its id.
+pub struct Sent {
+    /// Its name.
+    pub message: String,
+    /// What it says, for people.
+    pub text: String,
+    /// What it says.
+    pub delta: Value,
+}
+
+/// What kind of end a trace has. `[spec: TRACE-4]`
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FindingKind {
+    /// A clause does not hold.
+    Broken,
+    /// Something is seen that had to be seen somewhere.
+    Seen,
+    /// Nothing broke.
+    Holds,
+}
+
+/// What is found after the last step. `[spec: TRACE-4]`
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Finding {
+    /// What kind of end this is.
+    pub kind: FindingKind,
+    /// The clause, or the property of a scenario.
     pub clause: String,
-    /// What is wrong, with the values.
+    /// What it demands.
+    pub what: String,
+    /// What was found, with the values.
     pub detail: String,
-    /// The states that show it, by replica.
-    pub states: Vec<(String, Value)>,
+    /// The names of the replicas that show it.
+    pub replicas: Vec<String>,
 }
 
-/// Writes traces of L1 counterexamples.
-pub(crate) struct TraceWriter<'h, S: Semantics> {
-    semantics: &'h S,
-    histories: &'h mut Histories<S>,
-    steps: Vec<TraceStep>,
-    /// Broadcast so far, by message number.
-    messages: Vec<DeltaId>,
-    states: Vec<StateId>,
-}
-
-impl<'h, S: Semantics> TraceWriter<'h, S> {
-    /// The trace of a counterexample.
-    pub(crate) fn write(
-        semantics: &'h S,
-        histories: &'h mut Histories<S>,
-        found: &Counterexample<Histories<S>>,
-    ) -> Trace {
-        let replicas = histories.bound().replicas;
-        let states = vec![histories.initial(); replicas];
-        let mut writer = Self { semantics, histories, steps: Vec::new(), messages: Vec::new(), states };
-        for (_, choice) in &found.events {
-            writer.replay(choice);
-        }
-        let mut names: Vec<String> = (0..replicas).map(replica_name).collect();
-        let breach = match &found.fault {
-            FoundFault::Step(fault) => {
-                writer.receive_until(fault.replica, fault.before);
-                let states = writer.mutate_fault(fault);
-                trace_breach(&fault.breach, states)
-            }
-            FoundFault::Delivered(fault) => {
-                let mut orders = vec![(observer_name(0), fault.delivered.clone())];
-                orders.extend(fault.other_order.clone().map(|order| (observer_name(1), order)));
-                names.extend(orders.iter().map(|(name, _)| name.clone()));
-                let states = orders.into_iter().map(|(name, order)| writer.observe(name, &order)).collect();
-                trace_breach(&fault.breach, states)
-            }
-        };
-        Trace {
-            format: "dsr-trace".into(),
-            version: TRACE_VERSION,
-            semantics: semantics.name(),
-            layer: "L1".into(),
-            replicas: names,
-            initial: semantics.state_json(&semantics.initial()),
-            steps: writer.steps,
-            breach,
+impl Act {
+    /// The messages that it sends.
+    pub fn sends(&self) -> &[Sent] {
+        match self {
+            Self::Mutate { sends, .. } | Self::Answer { sends, .. } => sends,
+            _ => &[],
         }
     }
 
-    fn replay(&mut self, choice: &Choice) {
-        self.receive_until(choice.replica, choice.before);
-        let before = self.histories.tables().state(choice.before);
-        let delta = self.histories.tables().delta(choice.delta);
-        let mutation = self.semantics.mutation_of(&before, choice.replica, &delta);
-        let after = self.histories.join(choice.before, choice.delta);
-        self.push_mutation(choice.replica, mutation.as_ref(), choice.delta, choice.before, after);
-    }
-
-    fn push_mutation(
-        &mut self,
-        replica: usize,
-        mutation: Option<&S::Mutation>,
-        delta: DeltaId,
-        before: StateId,
-        after: StateId,
-    ) {
-        self.messages.push(delta);
-        let tables = self.histories.tables();
-        let act = Act::Mutate {
-            message: format!("m{}", self.messages.len()),
-            text: mutation.map(ToString::to_string).unwrap_or_default(),
-            mutation: mutation.map(|mutation| self.semantics.mutation_json(mutation)).unwrap_or_default(),
-            delta: self.semantics.delta_json(&tables.delta(delta)),
-        };
-        let changes = self.semantics.changes(&tables.state(before), &tables.state(after));
-        self.steps.push(TraceStep { replica: replica_name(replica), act, changes });
-        self.states[replica] = after;
-    }
-
-    fn mutate_fault(&mut self, fault: &crate::tables::StepFault<S>) -> Vec<(String, Value)> {
-        let delta = self.histories.intern_delta(fault.step.delta.clone());
-        let after = self.histories.intern(fault.step.after.clone());
-        self.push_mutation(fault.replica, Some(&fault.mutation), delta, fault.before, after);
-        vec![(replica_name(fault.replica), self.semantics.state_json(&fault.step.after))]
-    }
-
-    /// Delivers the fewest messages that bring a replica to the state in which it mutated.
-    fn receive_until(&mut self, replica: usize, target: StateId) {
-        let start = self.states[replica];
-        let mut orders: Vec<usize> = (0..1 << self.messages.len()).collect();
-        orders.sort_by_key(|mask| mask.count_ones());
-        for mask in orders {
-            let order: Vec<usize> =
-                (0..self.messages.len()).filter(|message| mask >> message & 1 == 1).collect();
-            let end = order
-                .iter()
-                .fold(start, |state, &message| self.histories.join(state, self.messages[message]));
-            if end == target {
-                for message in order {
-                    self.deliver(replica_name(replica), replica, message);
-                }
-                return;
-            }
+    /// The message that arrives, or never does.
+    pub fn message(&self) -> Option<&str> {
+        match self {
+            Self::Deliver { message } | Self::Lose { message } => Some(message),
+            _ => None,
         }
     }
+}
 
-    fn deliver(&mut self, name: String, replica: usize, message: usize) {
-        let before = self.states[replica];
-        let after = self.histories.join(before, self.messages[message]);
-        let tables = self.histories.tables();
-        let changes = self.semantics.changes(&tables.state(before), &tables.state(after));
-        self.steps.push(TraceStep {
-            replica: name,
-            act: Act::Deliver { message: format!("m{}", message + 1) },
-            changes,
-        });
-        self.states[replica] = after;
-    }
-
-    /// A replica that only receives, in the given order.
-    fn observe(&mut self, name: String, order: &[DeltaId]) -> (String, Value) {
-        let observer = self.states.len();
-        self.states.push(self.histories.initial());
-        for delta in order {
-            if let Some(message) = self.messages.iter().position(|known| known == delta) {
-                self.deliver(name.clone(), observer, message);
+impl Trace {
+    /// What each replica shows after each step: `graphs()[step][replica]`, the first before the first step.
+    /// `[spec: TRACE-3]`
+    pub fn graphs(&self) -> Result<Vec<Vec<Graph>>, Unsound> {
+        let mut now: Vec<Graph> = self.replicas.iter().map(|replica| replica.starts.clone()).collect();
+        let mut all = vec![now.clone()];
+        for (at, step) in self.steps.iter().enumerate() {
+            let replica = self.position(at, &step.replica)?;
+            for change in &step.changes {
+                now[replica].change(change).map_err(|why| Unsound::Change { step: at + 1, why })?;
             }
+            all.push(now.clone());
         }
-        let state = self.histories.tables().state(self.states[observer]);
-        (name, self.semantics.state_json(&state))
+        Ok(all)
     }
-}
 
-fn trace_breach(breach: &Breach, states: Vec<(String, Value)>) -> TraceBreach {
-    TraceBreach { clause: breach.clause.into(), detail: breach.detail.clone(), states }
-}
-
-fn replica_name(replica: usize) -> String {
-    format!("r{}", replica + 1)
-}
-
-fn observer_name(observer: usize) -> String {
-    format!("observer {}", observer + 1)
+    fn position(&self, at: usize, name: &str) -> Result<usize, Unsound> {
+        let known = self.replicas.iter().position(|replica| replica.name == name);
+        known.ok_or_else(|| Unsound::Replica { step: at + 1, replica: name.into() })
+    }
 }
 
 impl From<Trace> for RunTrace {
     fn from(trace: Trace) -> Self {
+        let Finding { clause, detail, .. } = trace.finding.clone();
         let json = serde_json::to_value(&trace).unwrap_or_default();
-        let TraceBreach { clause, detail, .. } = trace.breach.clone();
         Self { clause, detail, steps: trace.steps.len(), text: trace.to_string(), json }
     }
 }
 
-/// Prints a trace for people: a line per step, what changed below it, the broken clause last.
+/// Prints a trace for people: a line per step, what changed below it, what is found last.
 impl std::fmt::Display for Trace {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         for (at, step) in self.steps.iter().enumerate() {
-            write!(f, "{:>3}  {:<10} ", at + 1, step.replica)?;
-            match &step.act {
-                Act::Mutate { message, text, .. } => writeln!(f, "{text}  → {message}")?,
-                Act::Deliver { message } => writeln!(f, "receives {message}")?,
-                Act::Restart => writeln!(f, "restarts under a fresh incarnation")?,
-                Act::Resynchronise { from, .. } => writeln!(f, "resynchronises with {from}")?,
-            }
-            for change in &step.changes {
-                writeln!(f, "                {change}")?;
+            writeln!(f, "{:>3}  {:<10} {}", at + 1, step.replica, step.does)?;
+            for line in step.changes.iter().flat_map(Change::lines) {
+                writeln!(f, "                {line}")?;
             }
         }
-        write!(f, "  ✗  [{}] {}", self.breach.clause, self.breach.detail)
+        let Finding { kind, clause, detail, .. } = &self.finding;
+        let sign = match kind {
+            FindingKind::Broken => '✗',
+            FindingKind::Seen => '◉',
+            FindingKind::Holds => '✓',
+        };
+        write!(f, "  {sign}  [{clause}] {detail}")
     }
+}
+
+/// What is done, in words.
+impl std::fmt::Display for Act {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let names: Vec<&str> = self.sends().iter().map(|sent| &*sent.message).collect();
+        match self {
+            Self::Mutate { text, .. } if names.is_empty() => f.write_str(text),
+            Self::Mutate { text, .. } => write!(f, "{text}  → {}", names.join(", ")),
+            Self::Deliver { message } => write!(f, "receives {message}"),
+            Self::Lose { message } => write!(f, "never receives {message}"),
+            Self::Restart { keeps: true } => f.write_str("restarts with its state"),
+            Self::Restart { keeps: false } => f.write_str("restarts without its state"),
+            Self::Answer { to, .. } => write!(f, "sends {to} what it lacks  → {}", names.join(", ")),
+            Self::Happen { text } => f.write_str(text),
+        }
+    }
+}
+
+/// A hash of a value's JSON text. `[spec: TRACE-2]`
+pub(crate) fn hash(value: &Value) -> String {
+    let text = value.to_string();
+    let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    });
+    format!("{hash:016x}")
+}
+
+/// Names that are used twice, and so on, by message.
+pub(super) fn senders(steps: &[TraceStep]) -> Result<BTreeMap<&str, usize>, Unsound> {
+    let mut senders = BTreeMap::new();
+    for (at, step) in steps.iter().enumerate() {
+        for sent in step.does.sends() {
+            if let Some(first) = senders.insert(&*sent.message, at) {
+                let (first, second) = (first + 1, at + 1);
+                return Err(Unsound::SentTwice { message: sent.message.clone(), first, second });
+            }
+        }
+    }
+    Ok(senders)
 }
