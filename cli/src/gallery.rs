@@ -4,7 +4,10 @@ use crate::check::Format;
 use crate::output::{add, err, out};
 use crate::status::Status;
 use dsr_model::gallery::{Found, RowReport, rows, run_row};
+use dsr_model::render::{Target, render};
+use dsr_model::trace::Trace;
 use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
 
 const ABOUT: &str = "\
 Each row is one way in which replicas of the published system go wrong. A breadth-first search over everything that a \
@@ -20,6 +23,9 @@ pub(crate) struct Arguments {
     /// Only this row, with its schedule, such as 1b
     #[arg(long)]
     row: Option<String>,
+    /// A folder for the traces: of each row one of the published system and one of the checked semantics
+    #[arg(long, value_name = "FOLDER")]
+    traces: Option<PathBuf>,
     /// How the result is printed
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -34,6 +40,15 @@ impl Arguments {
             return Status::Usage;
         }
         let reports: Vec<RowReport> = rows.iter().map(run_row).collect();
+        if let Some(folder) = &self.traces
+            && let Err(error) = reports.iter().try_for_each(|report| write_traces(folder, report))
+        {
+            let folder = folder.display();
+            err(format_args!(
+                "{folder}: cannot write: {error}\n  remedy: check the path, the permissions and the space"
+            ));
+            return Status::Usage;
+        }
         match self.format {
             Format::Text => out(&text(&reports, self.row.is_some())),
             Format::Json => {
@@ -52,7 +67,7 @@ fn is_fine(report: &RowReport) -> bool {
 }
 
 fn checked(report: &RowReport) -> Option<String> {
-    report.checked.as_ref().map(dsr_model::gallery::Checked::verdict)
+    report.checked.as_ref().map(dsr_model::gallery::Twin::verdict)
 }
 
 fn text(reports: &[RowReport], schedules: bool) -> String {
@@ -79,19 +94,33 @@ fn text(reports: &[RowReport], schedules: bool) -> String {
     text
 }
 
+/// Both runs as diagrams, and what becomes of it without its cause.
 fn add_schedule(text: &mut String, report: &RowReport) {
     add(text, format_args!("\n{}, {:.2} s\n", report.bound, report.seconds));
-    for (at, line) in report.lines.iter().enumerate() {
-        add(text, format_args!("{:>4}. {line}\n", at + 1));
-    }
-    if let Some(breach) = &report.breach {
-        add(text, format_args!("[{}] {}\n", breach.clause, breach.detail));
+    for (_, trace) in traces(report) {
+        let drawn = render(trace, Target::Text).unwrap_or_else(|error| format!("cannot be drawn: {error}\n"));
+        add(text, format_args!("\n{drawn}"));
     }
     if let Some(control) = report.control {
         let found = if control.found { "found as well" } else { "nothing is found" };
         let (what, states) = (control.what, control.states);
-        add(text, format_args!("Where {what}, {found} in {states} states.\n\n"));
+        add(text, format_args!("\nWhere {what}, {found} in {states} states.\n\n"));
     }
+}
+
+/// A row's traces, each with what its file is called.
+fn traces(report: &RowReport) -> impl Iterator<Item = (String, &Trace)> {
+    let published = report.trace.iter().map(|trace| (format!("row-{}", report.row), trace));
+    let checked = report.checked.iter();
+    published.chain(checked.map(|twin| (format!("row-{}.checked", report.row), &twin.trace)))
+}
+
+fn write_traces(folder: &Path, report: &RowReport) -> std::io::Result<()> {
+    std::fs::create_dir_all(folder)?;
+    traces(report).try_for_each(|(name, trace)| {
+        let json = serde_json::to_string_pretty(trace)?;
+        std::fs::write(folder.join(format!("{name}.trace.json")), json + "\n")
+    })
 }
 
 fn row_json(report: &RowReport) -> Value {

@@ -88,7 +88,7 @@ impl Refusal {
                 "use the version of dsr that wrote the file, or run `dsr check` again"
             }
             Self::Render(RenderError::TooWide { .. }) => "use --to svg",
-            Self::Trace(TraceError::Form { .. }) | Self::Render(_) => {
+            Self::Trace(TraceError::Form { .. } | TraceError::Unsound(_)) | Self::Render(_) => {
                 "correct the file (TRACE-1 in spec/trace.md has the form), or run `dsr check` again"
             }
         }

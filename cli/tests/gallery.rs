@@ -29,7 +29,7 @@ fn one_row_comes_with_its_schedule() {
     let output = dsr(&["gallery", "--row", "2"]);
     assert_eq!(output.status.code(), Some(0));
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert!(text.contains("1. agent 1 removes #1.x\n") && text.contains("[JOIN-5]"), "{text}");
+    assert!(text.contains("removes #1.x  → m1") && text.contains("✗") && text.contains("[JOIN-5]"), "{text}");
 }
 
 #[test]

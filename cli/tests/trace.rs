@@ -60,7 +60,7 @@ fn law_a_counterexample_is_drawn_as_each_target() {
     let name = file.to_str().unwrap();
     let text = dsr(&["trace", name]);
     assert_eq!((text.status, text.err.as_str()), (0, ""));
-    assert!(text.out.starts_with("last-delivered-wins, L1: 6 steps to JOIN-3\n"), "{}", text.out);
+    assert!(text.out.starts_with("JOIN-3 is broken: "), "{}", text.out);
     assert!(text.out.contains("observer 2") && text.out.contains("✗"), "{}", text.out);
     assert_eq!(dsr(&["trace", name, "--to", "text"]).out, text.out);
     for (target, start, piece) in [
@@ -108,12 +108,12 @@ fn law_another_format_version_or_form_is_told_with_what_was_found() {
     let scenario = r#"{"mutations": 0, "steps": []}"#;
     refused("scenario", scenario, &["found no `format`, expected \"dsr-trace\"", "L1 or L2"]);
     refused("format", r#"{"format": "other"}"#, &["found the format \"other\", expected \"dsr-trace\""]);
-    let newer = counterexample().replace("\"version\": 1", "\"version\": 2");
-    refused("version", &newer, &["found version 2 of the trace format, only version 1 is understood"]);
+    let newer = counterexample().replace("\"version\": 2", "\"version\": 3");
+    refused("version", &newer, &["found version 3 of the trace format, only version 2 is understood"]);
     refused("none", r#"{"format": "dsr-trace"}"#, &["found version none"]);
     refused(
         "form",
-        r#"{"format": "dsr-trace", "version": 1}"#,
+        r#"{"format": "dsr-trace", "version": 2}"#,
         &["line 1, column 37: not the form of a trace"],
     );
 }
@@ -122,7 +122,7 @@ fn law_another_format_version_or_form_is_told_with_what_was_found() {
 #[test]
 fn law_a_message_that_nobody_sent_is_told_with_its_step() {
     let torn = counterexample().replacen("\"message\": \"m1\"", "\"message\": \"m7\"", 1);
-    refused("torn", &torn, &["delivers the message \"m1\", which no step before it sends", "step 4"]);
+    refused("torn", &torn, &["speaks of the message \"m1\", which no step before it sends", "step 4"]);
 }
 
 #[test]

@@ -3,7 +3,6 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt;
 
 /// Names and values of attributes, as texts.
 pub type Attributes = BTreeMap<String, String>;
@@ -98,10 +97,8 @@ impl Graph {
             (before != after).then_some(change)
         });
         let remarks = self.remarks.symmetric_difference(&after.remarks);
-        let remarks = remarks.map(|remark| Change::Remark {
-            remark: remark.clone(),
-            holds: after.remarks.contains(remark),
-        });
+        let remarks = remarks
+            .map(|remark| Change::Remark { remark: remark.clone(), holds: after.remarks.contains(remark) });
         elements.chain(remarks).collect()
     }
 
@@ -138,47 +135,78 @@ impl Element {
     }
 }
 
-/// As in `vertex person (person)` and `edge r1.2 -in-> r1.5`.
-impl fmt::Display for Element {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Vertex { name, vertex_type, .. } => write!(f, "vertex {name} ({vertex_type})"),
-            Self::Edge { from, to, label, .. } => write!(f, "edge {from} -{label}-> {to}"),
+/// What elements are called in lines for people.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Names(BTreeMap<String, String>);
+
+impl Names {
+    /// Names of all that some graphs and changes speak of: a vertex has its own, with its id where another has
+    /// the same; an edge that of its ends.
+    pub fn of<'g>(elements: impl Iterator<Item = (&'g String, &'g Element)>) -> Self {
+        let elements: BTreeMap<&String, &Element> = elements.collect();
+        let name = |element: &Element| match element {
+            Element::Vertex { name, .. } => Some(name.clone()),
+            Element::Edge { .. } => None,
+        };
+        let mut owners: BTreeMap<String, usize> = BTreeMap::new();
+        for name in elements.values().filter_map(|element| name(element)) {
+            *owners.entry(name).or_default() += 1;
         }
+        let unique = |id: &String, name: String| {
+            if owners.get(&name).is_some_and(|&owners| owners > 1) { format!("{name} ({id})") } else { name }
+        };
+        let vertices =
+            elements.iter().filter_map(|(&id, element)| Some((id.clone(), unique(id, name(element)?))));
+        let mut names = Self(vertices.collect());
+        for (&id, element) in &elements {
+            if let Element::Edge { from, to, label, .. } = element {
+                names.0.insert(id.clone(), format!("{} -{label}-> {}", names.get(from), names.get(to)));
+            }
+        }
+        names
+    }
+
+    /// What an element is called: by its id if nothing better is known.
+    pub fn get<'n>(&'n self, id: &'n str) -> &'n str {
+        self.0.get(id).map_or(id, String::as_str)
     }
 }
 
 impl Change {
-    /// In lines for people: `+` and `-` for what comes and goes, `attribute: old → new` for the rest.
-    pub fn lines(&self) -> Vec<String> {
+    /// In lines for people: `+` and `-` for what comes and goes, `±` for an attribute's new value.
+    pub fn lines(&self, names: &Names) -> Vec<String> {
         match self {
             Self::Remark { remark, holds } => vec![format!("{} {remark}", if *holds { '+' } else { '-' })],
             Self::Element { element, before, after } => {
-                let none = Attributes::new();
-                let attributes = |of: &Option<Element>| of.as_ref().map_or(none.clone(), |of| of.attributes().clone());
-                let (old, new) = (attributes(before), attributes(after));
-                let mut lines = Vec::new();
-                match (before, after) {
-                    (Some(before), None) => return vec![format!("- {before} [{element}]")],
-                    (None, Some(after)) => lines.push(format!("+ {after} [{element}]")),
-                    (Some(before), Some(after)) if before.to_string() != after.to_string() => {
-                        lines.extend([format!("- {before} [{element}]"), format!("+ {after} [{element}]")]);
-                    }
-                    _ => {}
-                }
-                let keys: BTreeSet<&String> = old.keys().chain(new.keys()).collect();
-                for key in keys {
-                    match (old.get(key), new.get(key)) {
-                        (None, Some(new)) => lines.push(format!("+ {element}.{key} = {new}")),
-                        (Some(old), None) => lines.push(format!("- {element}.{key} = {old}")),
-                        (Some(old), Some(new)) if old != new => {
-                            lines.push(format!("± {element}.{key} = {old} → {new}"));
-                        }
-                        _ => {}
-                    }
-                }
-                lines
+                element_lines(names, element, before.as_ref(), after.as_ref())
             }
         }
     }
+}
+
+fn element_lines(names: &Names, id: &str, before: Option<&Element>, after: Option<&Element>) -> Vec<String> {
+    let told = |element: &Element| match element {
+        Element::Vertex { name, vertex_type, .. } => format!("vertex {name} ({vertex_type})"),
+        Element::Edge { from, to, label, .. } => {
+            format!("edge {} -{label}-> {}", names.get(from), names.get(to))
+        }
+    };
+    let (was, is) = (before.map(told), after.map(told));
+    let mut lines = Vec::new();
+    if was != is {
+        lines.extend(was.map(|was| format!("- {was} [{id}]")));
+        lines.extend(is.map(|is| format!("+ {is} [{id}]")));
+    }
+    let Some(after) = after else { return lines };
+    let none = Attributes::new();
+    let (old, new) = (before.map_or(&none, Element::attributes), after.attributes());
+    let keys: BTreeSet<&String> = old.keys().chain(new.keys()).collect();
+    let of = names.get(id);
+    lines.extend(keys.into_iter().filter_map(|key| match (old.get(key), new.get(key)) {
+        (None, Some(new)) => Some(format!("+ {of}.{key} = {new}")),
+        (Some(old), None) => Some(format!("- {of}.{key} = {old}")),
+        (Some(old), Some(new)) if old != new => Some(format!("± {of}.{key} = {old} → {new}")),
+        _ => None,
+    }));
+    lines
 }

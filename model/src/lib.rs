@@ -6,6 +6,7 @@ pub mod checked;
 pub mod course;
 pub mod focus;
 pub mod gallery;
+pub mod graph;
 pub mod histories;
 pub mod job;
 pub mod progress;

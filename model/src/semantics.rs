@@ -3,6 +3,7 @@
 //! The checker never looks inside a state: it asks for mutations, delivers deltas, compares states, and
 //! lets the semantics itself judge what must hold of one state or one step.
 
+use crate::graph::{Element, Graph};
 use std::fmt::{Debug, Display};
 use std::hash::Hash;
 
@@ -174,9 +175,47 @@ pub trait Semantics: Debug + Send + Sync + 'static {
         delta.clone()
     }
 
-    /// What changed between two states, a line each, for people.
-    fn changes(&self, before: &Self::State, after: &Self::State) -> Vec<String> {
-        if before == after { Vec::new() } else { vec![format!("- {before:?}"), format!("+ {after:?}")] }
+    /// What a replica in a state shows, for traces: by default one vertex that holds the whole state as text.
+    /// `[spec: TRACE-2]`
+    fn shows(&self, state: &Self::State) -> Graph {
+        let attributes = [("state".into(), format!("{state:?}"))].into();
+        let whole = Element::Vertex { name: "the replica".into(), vertex_type: "replica".into(), attributes };
+        Graph { elements: [("replica".into(), whole)].into(), ..Graph::default() }
+    }
+
+    /// A mutation made in a state, for people.
+    fn mutation_text(&self, state: &Self::State, mutation: &Self::Mutation) -> String {
+        let _ = state;
+        mutation.to_string()
+    }
+
+    /// What a delta says, for people; may be empty.
+    fn delta_text(&self, delta: &Self::Delta) -> String {
+        let _ = delta;
+        String::new()
+    }
+
+    /// One delta for two, if there can be one: a group of mutations is then one message.
+    fn join_deltas(&self, left: &Self::Delta, right: &Self::Delta) -> Option<Self::Delta> {
+        let _ = (left, right);
+        None
+    }
+
+    /// What it takes to make this semantics again, for traces: its dictionary, what replicas start from.
+    fn setup_json(&self) -> serde_json::Value {
+        serde_json::Value::Null
+    }
+
+    /// The mutation of a JSON form, whether or not it can be made; by default one that
+    /// [`mutations`](Self::mutations) lists for the state.
+    fn mutation_from_json(
+        &self,
+        state: &Self::State,
+        replica: usize,
+        json: &serde_json::Value,
+    ) -> Option<Self::Mutation> {
+        let mut listed = self.mutations(state, replica).into_iter();
+        listed.find(|mutation| self.mutation_json(mutation) == *json)
     }
 
     /// A mutation as JSON, for traces.

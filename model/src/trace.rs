@@ -2,16 +2,20 @@
 //!
 //! | room | what |
 //! |---|---|
-//! | `record` | runs a [course](crate::course) and writes down what is seen |
+//! | `scribe` | writes down what replicas do and show |
+//! | `record` | runs a [course](crate::course) and has it written down |
 //! | `read` | reads a trace back and refuses what is none |
 
 mod read;
 mod record;
+mod scribe;
 
 pub use read::{TraceError, Unsound};
-pub use record::{CannotHappen, Recorder};
+pub use record::{CannotHappen, Part, Recorder};
+pub use scribe::{Heading, Scribe, message_name};
 
-use crate::graph::{Change, Graph};
+use crate::graph::{Change, Graph, Names};
+use crate::semantics::{Breach, Clause};
 use crate::verdict::RunTrace;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -55,8 +59,13 @@ pub struct Trace {
 pub struct TraceReplica {
     /// Its name.
     pub name: String,
+    /// The index by which it mutates in its first incarnation: it decides who wins ties.
+    pub index: usize,
     /// What it shows at the start.
     pub starts: Graph,
+    /// The state that it starts with, if not the one in the setup; the form is that of the semantics.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub state: Option<Value>,
 }
 
 /// One step of one replica. `[spec: TRACE-1]`
@@ -91,6 +100,9 @@ pub enum Act {
     Deliver {
         /// Which.
         message: String,
+        /// Whether another copy of it is still under way.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        again: bool,
     },
     /// A message never arrives here.
     Lose {
@@ -156,6 +168,40 @@ pub struct Finding {
     pub replicas: Vec<String>,
 }
 
+impl FindingKind {
+    /// A sign for drawings.
+    pub const fn sign(self) -> char {
+        match self {
+            Self::Broken => '✗',
+            Self::Seen => '◉',
+            Self::Holds => '✓',
+        }
+    }
+}
+
+/// The clause, and what was found; some details name the clause themselves.
+impl std::fmt::Display for Finding {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { clause, detail, .. } = self;
+        let head = format!("[{clause}]");
+        write!(f, "{head} {}", detail.strip_prefix(&head).unwrap_or(detail).trim_start())
+    }
+}
+
+impl Finding {
+    /// A clause that does not hold, and who shows it.
+    pub fn broken(clauses: &[Clause], breach: &Breach, replicas: Vec<String>) -> Self {
+        let what = clauses.iter().find(|clause| clause.id == breach.clause).map_or("", |clause| clause.what);
+        Self {
+            kind: FindingKind::Broken,
+            clause: breach.clause.into(),
+            what: what.into(),
+            detail: breach.detail.clone(),
+            replicas,
+        }
+    }
+}
+
 impl Act {
     /// The messages that it sends.
     pub fn sends(&self) -> &[Sent] {
@@ -168,7 +214,7 @@ impl Act {
     /// The message that arrives, or never does.
     pub fn message(&self) -> Option<&str> {
         match self {
-            Self::Deliver { message } | Self::Lose { message } => Some(message),
+            Self::Deliver { message, .. } | Self::Lose { message } => Some(message),
             _ => None,
         }
     }
@@ -190,6 +236,17 @@ impl Trace {
         Ok(all)
     }
 
+    /// What elements are called.
+    pub fn names(&self) -> Names {
+        let starts = self.replicas.iter().flat_map(|replica| &replica.starts.elements);
+        let changes = self.steps.iter().flat_map(|step| &step.changes);
+        let later = changes.filter_map(|change| match change {
+            Change::Element { element, after: Some(after), .. } => Some((element, after)),
+            _ => None,
+        });
+        Names::of(starts.chain(later))
+    }
+
     fn position(&self, at: usize, name: &str) -> Result<usize, Unsound> {
         let known = self.replicas.iter().position(|replica| replica.name == name);
         known.ok_or_else(|| Unsound::Replica { step: at + 1, replica: name.into() })
@@ -207,19 +264,14 @@ impl From<Trace> for RunTrace {
 /// Prints a trace for people: a line per step, what changed below it, what is found last.
 impl std::fmt::Display for Trace {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let names = self.names();
         for (at, step) in self.steps.iter().enumerate() {
             writeln!(f, "{:>3}  {:<10} {}", at + 1, step.replica, step.does)?;
-            for line in step.changes.iter().flat_map(Change::lines) {
+            for line in step.changes.iter().flat_map(|change| change.lines(&names)) {
                 writeln!(f, "                {line}")?;
             }
         }
-        let Finding { kind, clause, detail, .. } = &self.finding;
-        let sign = match kind {
-            FindingKind::Broken => '✗',
-            FindingKind::Seen => '◉',
-            FindingKind::Holds => '✓',
-        };
-        write!(f, "  {sign}  [{clause}] {detail}")
+        write!(f, "  {}  {}", self.finding.kind.sign(), self.finding)
     }
 }
 
@@ -230,7 +282,7 @@ impl std::fmt::Display for Act {
         match self {
             Self::Mutate { text, .. } if names.is_empty() => f.write_str(text),
             Self::Mutate { text, .. } => write!(f, "{text}  → {}", names.join(", ")),
-            Self::Deliver { message } => write!(f, "receives {message}"),
+            Self::Deliver { message, .. } => write!(f, "receives {message}"),
             Self::Lose { message } => write!(f, "never receives {message}"),
             Self::Restart { keeps: true } => f.write_str("restarts with its state"),
             Self::Restart { keeps: false } => f.write_str("restarts without its state"),

@@ -6,6 +6,7 @@
 //! symmetry. So a run here sets no target and no timeout, has one property and counts for itself whether
 //! every state it reached was expanded.
 
+use crate::trace::{CannotHappen, Trace};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -194,6 +195,19 @@ impl RunReport {
             notes: Vec::new(),
             traces: Vec::new(),
         }
+    }
+}
+
+impl RunReport {
+    /// Adds a counterexample, or a note on why there is none to show.
+    #[must_use]
+    pub fn with_trace(mut self, trace: Option<Result<Trace, CannotHappen>>) -> Self {
+        match trace {
+            Some(Ok(trace)) => self.traces.push(trace.into()),
+            Some(Err(why)) => self.notes.push(format!("the counterexample cannot be shown: {why}")),
+            None => {}
+        }
+        self
     }
 }
 

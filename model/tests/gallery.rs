@@ -89,7 +89,7 @@ fn law_the_checked_semantics_holds_on_every_schedule() {
 fn ends(number: &str) -> Vec<Option<Value>> {
     let row = rows().into_iter().find(|row| row.row == number).unwrap();
     let mut network = Network::new(row.setup.clone());
-    let mut at = network.replay(&run_row(&row).trace).unwrap();
+    let mut at = network.replay(&run_row(&row).schedule).unwrap();
     while let Some(copy) = network.letters(at).into_iter().next() {
         at = network.step(at, &Happening::Deliver(copy, false)).unwrap();
     }
@@ -182,7 +182,7 @@ fn law_every_trace_replays_to_the_same_states() {
         let end = find_fault(&mut searched, usize::MAX).unwrap().end;
         for _ in 0..100 {
             let mut again = Network::new(setup.clone());
-            let at = again.replay(&report.trace).unwrap();
+            let at = again.replay(&report.schedule).unwrap();
             assert_eq!(again.at(at), searched.at(end), "{}", row.row);
             assert_eq!(again.judge(&at), Err(breach.clone()), "{}", row.row);
         }
@@ -196,9 +196,9 @@ fn canary_a_spoiled_trace_is_noticed() {
         let report = run_row(&row);
         let setup = row.setup;
         let mut network = Network::new(setup.clone());
-        let end = network.replay(&report.trace).unwrap();
+        let end = network.replay(&report.schedule).unwrap();
         for at in 0..report.steps {
-            let mut spoiled = report.trace.clone();
+            let mut spoiled = report.schedule.clone();
             spoiled.remove(at);
             let reached = network.replay(&spoiled);
             assert!(reached != Some(end), "{} without {at}", row.row);

@@ -81,50 +81,52 @@ fn real() -> Vec<Trace> {
     ]
 }
 
+fn acts(trace: &Trace, is: fn(&Act) -> bool) -> usize {
+    trace.steps.iter().filter(|step| is(&step.does)).count()
+}
+
 /// `[spec: TRACE-3]`
 #[test]
 fn law_every_kind_of_step_is_rendered_by_every_target() {
     let traces = real();
-    let has = |is: fn(&Act) -> bool| traces.iter().any(|trace| trace.steps.iter().any(|step| is(&step.act)));
+    let has = |is: fn(&Act) -> bool| traces.iter().any(|trace| acts(trace, is) > 0);
     assert!(has(|act| matches!(act, Act::Mutate { .. })) && has(|act| matches!(act, Act::Deliver { .. })));
-    assert!(has(|act| matches!(act, Act::Restart)) && has(|act| matches!(act, Act::Resynchronise { .. })));
+    assert!(has(|act| matches!(act, Act::Restart { .. })) && has(|act| matches!(act, Act::Answer { .. })));
     for trace in traces.iter().chain([&crossing()]) {
         let rendered = TARGETS.map(|target| render(trace, target).expect("a sound trace"));
         for (target, text) in TARGETS.iter().zip(&rendered) {
-            assert!(text.ends_with('\n') && text.contains(&trace.breach.clause), "{target:?}\n{text}");
+            assert!(text.ends_with('\n') && text.contains(&trace.finding.clause), "{target:?}\n{text}");
             for step in &trace.steps {
-                let words = match &step.act {
-                    Act::Mutate { message, .. } | Act::Deliver { message } => message.as_str(),
-                    Act::Restart => "restarts",
-                    Act::Resynchronise { .. } => "resynchronises with",
+                let words = match &step.does {
+                    Act::Mutate { sends, .. } | Act::Answer { sends, .. } => sends[0].message.as_str(),
+                    Act::Deliver { message, .. } | Act::Lose { message } => message.as_str(),
+                    Act::Restart { .. } => "restarts with",
+                    Act::Happen { text } => text,
                 };
                 assert!(text.contains(words), "{target:?}: {words}\n{text}");
             }
         }
         let [text, mermaid, svg, log] = rendered;
         let count = |text: &str, sign: &str| text.matches(sign).count();
-        let acts = |is: fn(&Act) -> bool| trace.steps.iter().filter(|step| is(&step.act)).count();
-        let [mutations, deliveries] =
-            [acts(|act| matches!(act, Act::Mutate { .. })), acts(|act| matches!(act, Act::Deliver { .. }))];
-        let [restarts, answers] =
-            [acts(|act| *act == Act::Restart), acts(|act| matches!(act, Act::Resynchronise { .. }))];
-        assert_eq!((count(&text, "●"), count(&text, "◆")), (mutations, deliveries), "{text}");
-        assert_eq!(
-            (count(&text, "↻"), count(&text, "◇"), count(&text, "✗")),
-            (restarts, answers, 1),
-            "{text}"
-        );
+        let mutations = acts(trace, |act| matches!(act, Act::Mutate { .. }));
+        let deliveries = acts(trace, |act| matches!(act, Act::Deliver { .. }));
+        let losses = acts(trace, |act| matches!(act, Act::Lose { .. }));
+        let restarts = acts(trace, |act| matches!(act, Act::Restart { .. }));
+        let answers = acts(trace, |act| matches!(act, Act::Answer { .. }));
+        let others = acts(trace, |act| matches!(act, Act::Happen { .. }));
+        let signs = ["●", "◆", "×", "↻", "◇", "○", "✗"].map(|sign| count(&text, sign));
+        assert_eq!(signs, [mutations, deliveries, losses, restarts, answers, others, 1], "{text}");
         assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
-        assert_eq!(
-            (count(&mermaid, "    p"), count(&mermaid, "-->>")),
-            (trace.replicas.len() + deliveries + answers, answers)
-        );
+        let arrows = ["->>", "-x"].map(|arrow| count(&mermaid, &format!("{arrow}p")));
+        assert_eq!(arrows, [deliveries, losses], "{mermaid}");
         // One more of each for the legend.
         assert_eq!(count(&svg, "<circle class=\"full\""), mutations + 1);
+        assert_eq!(count(&svg, "<circle class=\"hollow\""), others + 1);
         assert_eq!(count(&svg, "<path class=\"full\""), deliveries + 1);
+        assert_eq!(count(&svg, "<path class=\"lost-mark\""), losses + 1);
         assert_eq!(count(&svg, "<rect class=\"hollow\""), restarts + 1);
         assert_eq!(count(&svg, "<path class=\"hollow\""), answers + 1);
-        assert_eq!((count(&svg, "url(#tip)"), count(&svg, "class=\"ring\"")), (deliveries + answers, 1));
+        assert_eq!((count(&svg, "url(#tip)"), count(&svg, "class=\"ring\"")), (deliveries, 1));
         assert_eq!(read_log(&log).len(), trace.steps.len());
     }
 }
@@ -137,20 +139,19 @@ fn law_arrows_come_from_the_sender() {
         let mermaid = render(trace, Target::Mermaid).expect("a sound trace");
         for (at, (row, step)) in diagram.rows.iter().zip(&trace.steps).enumerate() {
             assert_eq!(diagram.lanes[row.lane], step.replica);
-            let (from, arrow) = match (row.event, &step.act) {
-                (Event::Delivery { message, sent, from }, Act::Deliver { message: named }) => {
-                    assert!(sent < at && message == named);
-                    let Act::Mutate { message: sends, .. } = &trace.steps[sent].act else { panic!("{sent}") };
-                    assert_eq!((sends, trace.replicas[from].as_str()), (named, &*trace.steps[sent].replica));
-                    (from, format!("->>p{}: {}. {message}\n", row.lane + 1, at + 1))
-                }
-                (Event::Resynchronisation { from }, Act::Resynchronise { from: named, .. }) => {
-                    assert_eq!(&trace.replicas[from], named);
-                    (from, format!("-->>p{}: {}. ", row.lane + 1, at + 1))
-                }
-                _ => continue,
+            let (Event::Delivery(arrow) | Event::Loss(arrow)) = row.event else { continue };
+            assert!(arrow.sent < at && step.does.message() == Some(arrow.message));
+            let sender = &trace.steps[arrow.sent];
+            assert!(sender.does.sends().iter().any(|sent| sent.message == arrow.message));
+            assert_eq!(trace.replicas[arrow.from].name, sender.replica);
+            let line = match row.event {
+                Event::Loss(_) => "-x",
+                _ if matches!(sender.does, Act::Answer { .. }) => "-->>",
+                _ => "->>",
             };
-            assert!(mermaid.contains(&format!("    p{}{arrow}", from + 1)), "{arrow}\n{mermaid}");
+            let drawn =
+                format!("    p{}{line}p{}: {}. {}\n", arrow.from + 1, row.lane + 1, at + 1, arrow.message);
+            assert!(mermaid.contains(&drawn), "{drawn}\n{mermaid}");
         }
     }
 }
@@ -169,26 +170,19 @@ fn law_drawn_arrows_start_at_the_sending_step_and_end_at_the_receiver() {
         let diagram = Diagram::of(trace).expect("a sound trace");
         let svg = render(trace, Target::Svg).expect("a sound trace");
         let lanes = attributes(&svg, "<line class=\"lane\"", "x1");
-        let sent_at = attributes(&svg, "<circle class=\"full\"", "cy");
+        let rings = attributes(&svg, "<text class=\"small\" x=\"16\"", "y");
         let arrows = attributes(&svg, "<path class=\"arrow", "d");
-        let arriving: Vec<Event<'_>> = diagram.rows.iter().map(|row| row.event).collect();
-        let comes =
-            |event: &Event<'_>| matches!(event, Event::Delivery { .. } | Event::Resynchronisation { .. });
-        assert_eq!(arrows.len(), arriving.iter().filter(|event| comes(event)).count());
-        let rows = diagram.rows.iter().filter(|row| comes(&row.event));
-        for (row, arrow) in rows.zip(arrows) {
-            let (start, from) = match row.event {
-                Event::Delivery { sent, from, .. } => {
-                    let is_mutation = |event: &&Event<'_>| matches!(event, Event::Mutation { .. });
-                    let nth = arriving[..sent].iter().filter(is_mutation).count();
-                    (format!("M{} {}", lanes[from], sent_at[nth]), from)
-                }
-                Event::Resynchronisation { from } => (format!("M{} ", lanes[from]), from),
-                _ => panic!("{arrow}"),
-            };
-            let to = lanes[row.lane];
-            let end = if from == row.lane { format!("H{to}") } else { format!("L{to} ") };
-            assert!(arrow.starts_with(&start) && arrow.contains(&end), "{start} {end}: {arrow}");
+        let arriving = diagram.rows.iter().filter_map(|row| match row.event {
+            Event::Delivery(arrow) | Event::Loss(arrow) => Some((row, arrow)),
+            _ => None,
+        });
+        assert_eq!(arrows.len(), arriving.clone().count());
+        for ((row, arrow), path) in arriving.zip(arrows) {
+            // The number of a step stands five below its line.
+            let height: usize = rings[arrow.sent].parse::<usize>().expect("a number") - 5;
+            let (start, to) = (format!("M{} {height}", lanes[arrow.from]), lanes[row.lane]);
+            let end = if arrow.from == row.lane { format!("H{to}") } else { format!("L{to} ") };
+            assert!(path.starts_with(&start) && path.contains(&end), "{start} {end}: {path}");
         }
     }
 }
@@ -196,23 +190,29 @@ fn law_drawn_arrows_start_at_the_sending_step_and_end_at_the_receiver() {
 #[test]
 fn oracle_text_of_crossing_messages() {
     let drawn = "\
-made up, L2: 7 steps to JOIN-5
+crossing messages (made up, L2, 10 steps)
 
      r1          r2          observer 1
   1  ●           │           │           one  → m1
-     │           │           │             + a change
+     │           │           │             + change 1
   2  │           ●           │           two  → m2
-     │           │           │             + a change
+     │           │           │             + change 2
   3  ◆◀───────m2─┤           │           receives m2 from r2
-     │           │           │             + a change
+     │           │           │             + change 3
   4  ├─m1───────▶◆           │           receives m1 from r1
-     │           │           │             + a change
-  5  ↻           │           │           restarts under a fresh incarnation
-     │           │           │             + a change
+     │           │           │             + change 4
+  5  ↻           │           │           restarts with its state
+     │           │           │             + change 5
   6  ◆           │           │           receives m1 from itself
-     │           │           │             + a change
-  7  ├╌╌╌╌╌╌╌╌╌╌╌┼╌╌╌╌╌╌╌╌╌╌▶◇           resynchronises with r1
-     │           │           │             + a change
+     │           │           │             + change 6
+  7  │           ├╌m2╌╌╌╌╌╌╌▶×           never receives m2 from r2
+     │           │           │             + change 7
+  8  ◇           │           │           sends observer 1 what it lacks  → m3
+     │           │           │             + change 8
+  9  │           │           ○           waits
+     │           │           │             + change 9
+ 10  ├╌m3╌╌╌╌╌╌╌╌┼╌╌╌╌╌╌╌╌╌╌▶◆           receives m3 from r1
+     │           │           │             + change 10
      │           │           ✗           [JOIN-5] unequal
 ";
     let text = render(&crossing(), Target::Text).expect("a sound trace");
@@ -230,7 +230,10 @@ fn oracle_clocks_of_crossing_messages() {
         r#"r2 {"r1": 1, "r2": 2}"#,
         r#"r1 {"r1": 3, "r2": 1}"#,
         r#"r1 {"r1": 4, "r2": 1}"#,
-        r#"observer_1 {"r1": 4, "r2": 1, "observer_1": 1}"#,
+        r#"observer_1 {"observer_1": 1}"#,
+        r#"r1 {"r1": 5, "r2": 1}"#,
+        r#"observer_1 {"observer_1": 2}"#,
+        r#"observer_1 {"r1": 5, "r2": 1, "observer_1": 3}"#,
     ];
     assert_eq!(told, clocks, "{log}");
 }
@@ -239,7 +242,7 @@ fn oracle_clocks_of_crossing_messages() {
 #[test]
 fn regress_a_mutation_in_braces_is_no_clock() {
     let mut trace = crossing();
-    trace.steps[1].act = mutate("m2", "{\"r1\": 7}");
+    trace.steps[1].does = mutate("m2", "{\"r1\": 7}");
     let log = render(&trace, Target::Shiviz).expect("a sound trace");
     let is_clock = |line: &&str| line.split_once(' ').is_some_and(|(_, rest)| rest.starts_with('{'));
     assert_eq!(log.lines().filter(is_clock).count(), trace.steps.len(), "{log}");
@@ -256,8 +259,8 @@ fn law_a_clock_counts_its_own_events_and_includes_the_sender() {
             let count = own.entry(host).or_default();
             *count += 1;
             assert_eq!(clock[host], *count);
-            if let Event::Delivery { sent, .. } = row.event {
-                let (_, _, sender) = &log[sent];
+            if let Event::Delivery(arrow) = row.event {
+                let (_, _, sender) = &log[arrow.sent];
                 assert!(sender.iter().all(|(host, count)| clock.get(host) >= Some(count)), "{log:?}");
             }
         }

@@ -4,9 +4,10 @@
 
 mod made;
 
+use dsr_model::graph::{Change, ChangeError, Element};
 use dsr_model::render::{RenderError, Target, render};
-use dsr_model::trace::{Act, Trace, TraceBreach, TraceError, TraceStep};
-use made::{TARGETS, crossing, deliver, made, mutate, read_log, resynchronise, step};
+use dsr_model::trace::{Trace, TraceError, TraceStep, Unsound};
+use made::{RESTART, TARGETS, answer, crossing, deliver, made, mutate, read_log, step};
 
 const HOSTILE: &str = "<b>&\"x\";\n# %% 'end'\u{1b}[2J\u{2028}";
 
@@ -18,16 +19,18 @@ fn hostile() -> Trace {
         vec![
             step(&one, mutate(HOSTILE, HOSTILE)),
             step(&two, deliver(HOSTILE)),
-            step(&two, resynchronise(&one)),
-            step(&two, Act::Restart),
+            step(&two, answer(&one, "m2")),
+            step(&two, RESTART),
         ],
     );
-    for step in &mut trace.steps {
-        step.changes = vec![HOSTILE.into()];
+    for (at, step) in trace.steps.iter_mut().enumerate() {
+        step.changes = vec![Change::Remark { remark: format!("{at}{HOSTILE}"), holds: true }];
     }
+    trace.title = HOSTILE.into();
     trace.semantics = HOSTILE.into();
     trace.layer = HOSTILE.into();
-    trace.breach = TraceBreach { clause: HOSTILE.into(), detail: HOSTILE.into(), states: Vec::new() };
+    trace.finding.clause = HOSTILE.into();
+    trace.finding.detail = HOSTILE.into();
     trace
 }
 
@@ -85,23 +88,59 @@ fn law_names_that_do_not_resolve_are_refused_with_their_step() {
     let sound = || step("r1", mutate("m1", "one"));
     let one = |replicas: &[&str], steps: Vec<TraceStep>| {
         let trace = made(replicas, steps);
-        let errors = TARGETS.map(|target| render(&trace, target).expect_err("not a sound trace"));
-        assert!(errors.iter().all(|error| *error == errors[0]));
-        errors[0].clone()
+        let why = trace.check().expect_err("not a sound trace");
+        let text = serde_json::to_string(&trace).expect("json");
+        assert_eq!(Trace::read(&text), Err(TraceError::Unsound(why.clone())));
+        for target in TARGETS {
+            assert_eq!(render(&trace, target), Err(RenderError::Unsound(why.clone())));
+        }
+        why
     };
     let unknown = one(&["r1", "r2"], vec![sound(), step("r2", deliver("m9"))]);
-    assert_eq!(unknown, RenderError::UnknownMessage { step: 2, message: "m9".into() });
+    assert_eq!(unknown, Unsound::Message { step: 2, message: "m9".into() });
     assert!(unknown.to_string().contains("step 2") && unknown.to_string().contains("\"m9\""));
     let early = one(&["r1", "r2"], vec![step("r2", deliver("m1")), sound()]);
-    assert_eq!(early, RenderError::UnknownMessage { step: 1, message: "m1".into() });
-    let nobody = one(&["r1"], vec![sound(), step("r3", Act::Restart)]);
-    assert_eq!(nobody, RenderError::UnknownReplica { step: 2, name: "r3".into() });
-    let answer = one(&["r1"], vec![step("r1", resynchronise("r3"))]);
-    assert_eq!(answer, RenderError::UnknownReplica { step: 1, name: "r3".into() });
+    assert_eq!(early, Unsound::Message { step: 1, message: "m1".into() });
+    let nobody = one(&["r1"], vec![sound(), step("r3", RESTART)]);
+    assert_eq!(nobody, Unsound::Replica { step: 2, replica: "r3".into() });
+    let answer = one(&["r1"], vec![step("r1", answer("r3", "m1"))]);
+    assert_eq!(answer, Unsound::Replica { step: 1, replica: "r3".into() });
     let twice = one(&["r1"], vec![sound(), sound()]);
-    assert_eq!(twice, RenderError::SentTwice { step: 2, first: 1, message: "m1".into() });
-    assert_eq!(one(&["r1", "r1"], Vec::new()), RenderError::TwoReplicas { name: "r1".into() });
-    assert_eq!(one(&[], Vec::new()), RenderError::NoReplicas);
+    assert_eq!(twice, Unsound::SentTwice { message: "m1".into(), first: 1, second: 2 });
+    assert_eq!(one(&["r1", "r1"], Vec::new()), Unsound::TwoReplicas { name: "r1".into() });
+    assert_eq!(one(&[], Vec::new()), Unsound::NoReplicas);
+}
+
+/// `[spec: TRACE-2]` `[spec: TRACE-3]`
+#[test]
+fn law_a_change_of_what_was_not_so_is_refused_with_its_step() {
+    let vertex = |name: &str| Element::Vertex {
+        name: name.into(),
+        vertex_type: "thing".into(),
+        attributes: [("x".into(), "1".into())].into(),
+    };
+    let change = |before: Option<&str>, after: Option<&str>| Change::Element {
+        element: "v".into(),
+        before: before.map(vertex),
+        after: after.map(vertex),
+    };
+    let remark = |holds| Change::Remark { remark: "odd".into(), holds };
+    let checked = |changes: [Vec<Change>; 2]| {
+        let mut trace = made(&["r1"], vec![step("r1", mutate("m1", "one")), step("r1", mutate("m2", "two"))]);
+        for (step, changes) in trace.steps.iter_mut().zip(changes) {
+            step.changes = changes;
+        }
+        trace.check()
+    };
+    assert_eq!(checked([vec![change(None, Some("a"))], vec![change(Some("a"), None), remark(true)]]), Ok(()));
+    let element = || ChangeError::Element { element: "v".into() };
+    let why = |step, why| Err(Unsound::Change { step, why });
+    assert_eq!(checked([vec![change(Some("a"), None)], Vec::new()]), why(1, element()));
+    assert_eq!(checked([vec![change(None, Some("a"))], vec![change(Some("b"), None)]]), why(2, element()));
+    assert_eq!(checked([vec![change(None, Some("a"))], vec![change(None, Some("b"))]]), why(2, element()));
+    let again = ChangeError::Remark { remark: "odd".into() };
+    assert_eq!(checked([vec![remark(true)], vec![remark(true)]]), why(2, again.clone()));
+    assert_eq!(checked([vec![remark(false)], Vec::new()]), why(1, again));
 }
 
 #[test]
@@ -133,9 +172,9 @@ fn law_other_formats_and_versions_are_refused_by_what_they_say() {
     assert_eq!(read("[]"), TraceError::NoFormat);
     let other = json.replace("dsr-trace", "dsr-tale");
     assert_eq!(read(&other), TraceError::OtherFormat { found: "\"dsr-tale\"".into() });
-    let newer = json.replace("\"version\": 1", "\"version\": 2");
-    assert_eq!(read(&newer), TraceError::OtherVersion { found: "2".into() });
+    let newer = json.replace("\"version\": 2", "\"version\": 3");
+    assert_eq!(read(&newer), TraceError::OtherVersion { found: "3".into() });
     let key = json.replace("\"layer\"", "\"lair\"");
-    assert!(matches!(read(&key), TraceError::Form { line: 5, .. }), "{}", read(&key));
+    assert!(matches!(read(&key), TraceError::Form { line: 7, .. }), "{}", read(&key));
     assert!(matches!(read("{\n \"format\": ]"), TraceError::Syntax { line: 2, column: 12, .. }));
 }

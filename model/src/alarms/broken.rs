@@ -3,6 +3,7 @@
 use super::shown::Shown;
 use crate::algebra::{Algebra, Family, core_universe};
 use crate::checked::{Act, Checked, judge_shown, replica_id};
+use crate::graph::Graph;
 use crate::semantics::{Breach, Clause, Competition, Judged, Semantics, Step};
 use dsr_core::{Author, Delta, Mutation, State, View, delta_for, digest, view};
 use std::fmt::Debug;
@@ -216,8 +217,28 @@ impl Semantics for Broken {
         self.core.rename_delta(delta, to)
     }
 
-    fn changes(&self, before: &State, after: &State) -> Vec<String> {
-        self.core.changes(before, after)
+    fn shows(&self, state: &State) -> Graph {
+        self.core.shows(state)
+    }
+
+    fn mutation_text(&self, state: &State, mutation: &Act) -> String {
+        self.core.mutation_text(state, mutation)
+    }
+
+    fn delta_text(&self, delta: &Delta) -> String {
+        self.core.delta_text(delta)
+    }
+
+    fn join_deltas(&self, left: &Delta, right: &Delta) -> Option<Delta> {
+        self.core.join_deltas(left, right)
+    }
+
+    fn setup_json(&self) -> serde_json::Value {
+        self.core.setup_json()
+    }
+
+    fn mutation_from_json(&self, state: &State, replica: usize, json: &serde_json::Value) -> Option<Act> {
+        self.core.mutation_from_json(state, replica, json)
     }
 
     fn mutation_json(&self, mutation: &Act) -> serde_json::Value {

@@ -187,7 +187,7 @@ fn finding(layer: &'static str, report: &RunReport) -> Finding {
     let trace = report.traces.first();
     let clause = trace.map_or_else(|| "?".into(), |trace| trace.clause.clone());
     let detail = trace
-        .and_then(|trace| trace.json["breach"]["detail"].as_str())
+        .and_then(|trace| trace.json["finding"]["detail"].as_str())
         .map_or_else(|| report.notes.join("; "), Into::into);
     let steps = trace.and_then(|trace| trace.json["steps"].as_array()).map_or(0, Vec::len);
     Finding { layer, bound: report.name.clone(), clause, detail, steps }

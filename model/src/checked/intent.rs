@@ -181,24 +181,3 @@ pub(super) fn check_delivery(before: &State, after: &State) -> Result<(), Breach
     }
     Ok(())
 }
-
-/// What changed between two views, a line each.
-pub(super) fn changes(before: &View<'_>, after: &View<'_>) -> Vec<String> {
-    let lines = |view: &View<'_>| -> Vec<String> {
-        let vertices = view.vertices().iter().filter_map(|&id| {
-            view.vertex(id).map(|vertex| format!("vertex {id} {:?} ({})", &*vertex.name, vertex.vertex_type))
-        });
-        let edges = view.edges().iter().map(|shown| format!("edge {} {}", shown.id, shown.edge.key()));
-        let writes = view.writes().iter().map(|(dot, write)| {
-            let target =
-                if write.target == VertexId::ROOT.0 { "root".into() } else { write.target.to_string() };
-            format!("attribute {target}.{} = {} ({dot})", write.name, write.value)
-        });
-        let repairs = view.repairs().iter().map(|repair| format!("repair: {repair}"));
-        vertices.chain(edges).chain(writes).chain(repairs).collect()
-    };
-    let (old, new) = (lines(before), lines(after));
-    let gone = old.iter().filter(|line| !new.contains(line)).map(|line| format!("- {line}"));
-    let come = new.iter().filter(|line| !old.contains(line)).map(|line| format!("+ {line}"));
-    gone.chain(come).collect()
-}

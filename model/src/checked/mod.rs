@@ -4,7 +4,9 @@ pub mod alphabet;
 mod intent;
 mod renaming;
 mod timeless;
+mod words;
 
+use crate::graph::Graph;
 use crate::semantics::{Breach, Clause, Competition, Judged, Semantics, Step, WHOLE, Witnesses};
 use alphabet::Alphabet;
 use dsr_core::invariant::{Violation, check_repairs, check_view};
@@ -29,30 +31,10 @@ pub struct Checked {
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct Act(pub Mutation);
 
+/// With ids; [`Semantics::mutation_text`] has names.
 impl fmt::Display for Act {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.0.kind().name())?;
-        match &self.0 {
-            Mutation::AddVertex { vertex, link } if link.outgoing => {
-                write!(f, " {:?} -{}-> {}", vertex.name, link.label, link.other)
-            }
-            Mutation::AddVertex { vertex, link } => {
-                write!(f, " {} -{}-> {:?}", link.other, link.label, vertex.name)
-            }
-            Mutation::AddEdge { key, .. } | Mutation::RemoveEdge { key } => write!(f, " {key}"),
-            Mutation::MoveEdge { from, to, .. } => write!(f, " {from} to {to}"),
-            Mutation::RemoveVertex { vertex } => write!(f, " {vertex}"),
-            Mutation::UpdateAttributes { target, updates } => {
-                write!(f, " {target}")?;
-                for (name, value) in updates {
-                    match value {
-                        Some(value) => write!(f, " {name}={value}")?,
-                        None => write!(f, " unset {name}")?,
-                    }
-                }
-                Ok(())
-            }
-        }
+        f.write_str(&words::with(&self.0, &|vertex| vertex.to_string(), &|edge| edge.to_string()))
     }
 }
 
@@ -299,8 +281,28 @@ impl Semantics for Checked {
         renaming::rename(delta, to)
     }
 
-    fn changes(&self, before: &State, after: &State) -> Vec<String> {
-        intent::changes(&view(before, &self.dictionary), &view(after, &self.dictionary))
+    fn shows(&self, state: &State) -> Graph {
+        words::graph(&view(state, &self.dictionary))
+    }
+
+    fn mutation_text(&self, state: &State, mutation: &Act) -> String {
+        words::mutation(&view(state, &self.dictionary), &mutation.0)
+    }
+
+    fn delta_text(&self, delta: &Delta) -> String {
+        words::delta(delta)
+    }
+
+    fn join_deltas(&self, left: &Delta, right: &Delta) -> Option<Delta> {
+        Some(left.joined(right))
+    }
+
+    fn setup_json(&self) -> serde_json::Value {
+        serde_json::json!({ "dictionary": self.dictionary, "initial": self.initial })
+    }
+
+    fn mutation_from_json(&self, _: &State, _: usize, json: &serde_json::Value) -> Option<Act> {
+        serde_json::from_value(json.clone()).ok().map(Act)
     }
 
     fn mutation_json(&self, mutation: &Act) -> serde_json::Value {

@@ -5,18 +5,25 @@
 //! states must be equal; where messages were lost or missed, after everybody has resynchronised. What a row
 //! says of a single write or node must not come true either.
 
-use crate::published::{Envelope, Happening, Moment, Network, NodeId, Operation, Property, Setup};
+use super::Row;
+use super::record::new_copies;
+use super::run::bound;
+use crate::checked::alphabet::Alphabet;
+use crate::checked::{Act, Checked, replica_id};
+use crate::course::Event;
+use crate::published::{Envelope, Happening, Network, NodeId, Operation, Property, Setup};
 use crate::search::Space;
+use crate::trace::{CannotHappen, Finding, FindingKind, Part, Recorder, Trace};
 use dsr_core::invariant::check_view;
 use dsr_core::{
-    AttributeMap, Author, Delta, Dictionary, EdgeKey, ElementId, Mutation, NewVertex, RT, ReplicaId, State,
-    Value, VertexId, VertexLink, View, delta_for, digest, view,
+    AttributeMap, Author, Dictionary, EdgeKey, ElementId, Mutation, NewVertex, RT, State, Value, VertexId,
+    VertexLink, View, view,
 };
 use std::collections::BTreeMap;
 
 /// What the checked semantics does with a schedule.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Checked {
+#[derive(Clone, PartialEq, Debug)]
+pub struct Twin {
     /// The clause that does not hold, if any, and why.
     pub broken: Option<String>,
     /// Deliveries that changed a state.
@@ -25,126 +32,243 @@ pub struct Checked {
     pub refused: usize,
     /// Whether all were equal only after resynchronising, because messages never arrived.
     pub resynchronised: bool,
+    /// What happens.
+    pub trace: Trace,
 }
 
-impl Checked {
+impl Twin {
     /// In a word, or a sentence.
     pub fn verdict(&self) -> String {
         self.broken.clone().unwrap_or_else(|| "holds".into())
     }
 }
 
-/// Runs a trace of a setup on the checked semantics; `None` if the trace is not one of the setup.
-pub fn run_checked(setup: &Setup, trace: &[Happening]) -> Option<Checked> {
+/// Runs a schedule of a row on the checked semantics; `None` if it is none of the row's.
+pub fn run_checked(row: &Row, schedule: &[Happening]) -> Option<Twin> {
+    let setup = &row.setup;
+    let mut cast = Cast::new(setup);
+    let initial = cast.set_up(setup);
+    let dictionary = Dictionary::open();
+    let alphabet = Alphabet::of(&[], Vec::new());
+    let semantics = Checked { dictionary, initial: State::new(), alphabet };
+    let parts = setup.agents.iter().zip(initial).enumerate().map(|(at, (&agent, state))| Part {
+        name: setup.name(at),
+        index: usize::try_from(agent.saturating_sub(1)).unwrap_or(0),
+        state: Some(state),
+    });
+    let mut replay = Replay {
+        recorder: Recorder::starting(&semantics, parts.collect()),
+        cast,
+        sent: Vec::new(),
+        deliveries: 0,
+        refused: 0,
+    };
     let mut network = Network::new(setup.clone());
     let mut at = network.start();
-    let mut replay = Replay::new(setup);
-    for happening in trace {
+    for happening in schedule {
         let before = network.letters(at);
         at = network.step(at, happening)?;
         let sent = new_copies(&before, network.letters(at));
-        replay.happen(setup, happening, sent);
+        replay.happen(setup, happening, sent).ok()?;
         if let Some(broken) = replay.judge() {
-            return Some(Checked { broken: Some(broken), ..replay.outcome });
+            return Some(replay.end(row, Some(broken), false));
         }
     }
-    Some(replay.end(setup, &network, at))
+    for copy in network.letters(at) {
+        replay.happen(setup, &Happening::Deliver(copy, false), Vec::new()).ok()?;
+    }
+    let powers = &setup.powers;
+    let missed = powers.losses_max > 0 || powers.joiner.is_some() || powers.restarts.is_some();
+    let resynchronised = missed && replay.differ();
+    if resynchronised {
+        replay.resynchronise().ok()?;
+    }
+    let broken = replay.judge().or_else(|| replay.differ().then(|| "JOIN-5: the replicas differ".into()));
+    let broken = broken.or_else(|| replay.judge_property(setup.property));
+    Some(replay.end(row, broken, resynchronised))
 }
 
-fn new_copies(before: &[Envelope], after: Vec<Envelope>) -> Vec<Envelope> {
-    after.into_iter().filter(|copy| !before.contains(copy)).collect()
+/// Which vertices stand for nodes, and who holds copies.
+struct Cast {
+    dictionary: Dictionary,
+    vertices: BTreeMap<NodeId, VertexId>,
+    /// By replica, the node that its user keeps a copy of.
+    copies: BTreeMap<usize, NodeId>,
+    first: usize,
 }
 
 /// The checked replicas, beside the published ones.
-struct Replay {
-    dictionary: Dictionary,
-    replicas: Vec<ReplicaId>,
-    initial: Vec<State>,
-    states: Vec<State>,
-    /// The vertices that stand for nodes.
-    vertices: BTreeMap<NodeId, VertexId>,
-    /// The attribute that the copy kept by a user was asked for.
-    copies: BTreeMap<usize, NodeId>,
-    /// The deltas behind messages.
-    deltas: Vec<(Envelope, Delta)>,
-    outcome: Checked,
+struct Replay<'s> {
+    recorder: Recorder<'s, Checked>,
+    cast: Cast,
+    /// The numbers of the messages that stand for published ones.
+    sent: Vec<(Envelope, usize)>,
+    deliveries: usize,
+    refused: usize,
 }
 
-impl Replay {
-    fn new(setup: &Setup) -> Self {
-        let replica = |&agent: &u32| ReplicaId { agent, incarnation: 0 };
-        let replicas: Vec<ReplicaId> = setup.agents.iter().map(replica).collect();
-        let states = vec![State::new(); replicas.len()];
-        let mut replay = Self {
-            dictionary: Dictionary::open(),
-            replicas,
-            initial: Vec::new(),
-            states,
-            vertices: BTreeMap::new(),
-            copies: BTreeMap::new(),
-            deltas: Vec::new(),
-            outcome: Checked { broken: None, deliveries: 0, refused: 0, resynchronised: false },
-        };
-        let joiner = setup.powers.joiner.as_ref().map(|joiner| joiner.replica);
-        for operation in &setup.before {
-            let Some(delta) = replay.call(0, operation) else { continue };
-            let others = replay.states.iter_mut().enumerate().filter(|(at, _)| Some(*at) != joiner);
-            others.for_each(|(_, state)| state.join(&delta));
-        }
-        replay.initial.clone_from(&replay.states);
-        replay
-    }
-
-    fn happen(&mut self, setup: &Setup, happening: &Happening, sent: Vec<Envelope>) {
+impl Replay<'_> {
+    fn happen(
+        &mut self,
+        setup: &Setup,
+        happening: &Happening,
+        sent: Vec<Envelope>,
+    ) -> Result<(), CannotHappen> {
         match happening {
             Happening::Call(replica, call) => {
                 let calls = setup.plays.get(*replica).map(|play| &play.calls);
-                let Some((_, operation)) = calls.and_then(|calls| calls.get(*call)) else { return };
-                if let Some(delta) = self.call(*replica, operation) {
-                    self.deltas.extend(sent.into_iter().map(|copy| (copy, delta.clone())));
+                let Some((_, operation)) = calls.and_then(|calls| calls.get(*call)) else { return Ok(()) };
+                if let Some(number) = self.call(*replica, operation)? {
+                    self.sent.extend(sent.into_iter().map(|copy| (copy, number)));
                 }
+                Ok(())
             }
             Happening::Encode => {
-                let server = setup.powers.joiner.as_ref().map_or(0, |joiner| joiner.server);
-                let whole = self.states[server].clone();
-                self.deltas.extend(sent.into_iter().map(|copy| (copy, whole.clone())));
+                let joiner = setup.powers.joiner.as_ref();
+                let (replica, to) = joiner.map_or((0, 0), |joiner| (joiner.server, joiner.replica));
+                let number = self.recorder.messages().len();
+                self.sent.extend(sent.into_iter().map(|copy| (copy, number)));
+                self.recorder.record(&Event::Answer { replica, to })
             }
             Happening::Deliver(copy, _) => {
-                let delta = self.deltas.iter().find(|(sent, _)| sent == copy);
-                if let Some((_, delta)) = delta {
-                    let after = self.states[copy.to].joined(delta);
-                    self.outcome.deliveries += usize::from(after != self.states[copy.to]);
-                    self.states[copy.to] = after;
+                let known = self.sent.iter().find(|(sent, _)| sent == copy);
+                let Some(&(_, message)) = known else { return Ok(()) };
+                let before = self.recorder.states()[copy.to].clone();
+                // One message of ours may stand for several: it arrives with the first of them.
+                if before.joined(&self.recorder.messages()[message]) == before {
+                    return Ok(());
                 }
+                self.deliveries += 1;
+                self.recorder.record(&Event::Deliver { replica: copy.to, message })
+            }
+            Happening::Lose(copy) => {
+                let known = self.sent.iter().find(|(sent, _)| sent == copy);
+                let Some(&(_, message)) = known else { return Ok(()) };
+                self.recorder.record(&Event::Lose { replica: copy.to, message })
             }
             Happening::Restart(replica) => {
-                self.states[*replica] = self.initial[*replica].clone();
-                self.replicas[*replica].incarnation += 1;
+                self.recorder.record(&Event::Restart { replica: *replica, keeps: false })
             }
-            Happening::Lose(_) | Happening::Find(_) | Happening::Tell => {}
+            Happening::Find(_) | Happening::Tell => Ok(()),
         }
     }
 
-    /// Makes a call; `None` if it broadcasts nothing.
-    fn call(&mut self, replica: usize, operation: &Operation) -> Option<Delta> {
+    /// Makes a call; the number of its message, or `None` if it broadcasts nothing.
+    fn call(&mut self, replica: usize, operation: &Operation) -> Result<Option<usize>, CannotHappen> {
         if let Operation::Get { node } = operation {
-            self.copies.insert(replica, *node);
-            return None;
+            self.cast.copies.insert(replica, *node);
+            self.recorder.happen(replica, operation.to_string())?;
+            return Ok(None);
         }
-        let state = &self.states[replica];
-        let seen = view(state, &self.dictionary);
-        let author = Author::new(self.replicas[replica]);
-        let next = state.next_dot(author.replica);
-        let mutation = self.mutation(&seen, replica, operation);
-        let Some(delta) = mutation.and_then(|mutation| mutation.delta(&seen, author).ok()) else {
-            self.outcome.refused += 1;
-            return None;
+        let author = Author::new(replica_id(self.recorder.identity(replica)));
+        let state = self.recorder.states()[replica].clone();
+        let seen = view(&state, &self.cast.dictionary);
+        let mutation = self.cast.mutation(&seen, replica, operation);
+        let Some(mutation) = mutation.filter(|mutation| mutation.delta(&seen, author).is_ok()) else {
+            self.refused += 1;
+            self.recorder.happen(replica, format!("is refused: {operation}"))?;
+            return Ok(None);
         };
-        if let (Operation::InsertNode { id, .. }, Some(dot)) = (operation, next) {
+        self.cast.note(&state, author, operation);
+        let number = self.recorder.messages().len();
+        self.recorder.record(&Event::Mutate { replica, mutations: vec![Act(mutation)] })?;
+        Ok(Some(number))
+    }
+
+    fn differ(&self) -> bool {
+        let states = self.recorder.states();
+        states.iter().any(|state| *state != states[0])
+    }
+
+    /// The first view that breaks an invariant.
+    fn judge(&self) -> Option<String> {
+        self.recorder.states().iter().enumerate().find_map(|(at, state)| {
+            let broken = check_view(&view(state, &self.cast.dictionary)).err()?;
+            Some(format!("{broken:?} at {}", self.recorder.scribe().name(at)))
+        })
+    }
+
+    /// What a row says of one node, where the invariants do not cover it: a write that nobody superseded is
+    /// live everywhere, hidden by a greater one at most; what was removed is not shown.
+    fn judge_property(&self, property: Property) -> Option<String> {
+        let vertex = |node: NodeId| self.cast.vertices.get(&node).copied();
+        self.recorder.states().iter().find_map(|state| {
+            let seen = view(state, &self.cast.dictionary);
+            match property {
+                Property::Lost(node, key, value) => {
+                    let writes = seen.attribute_writes(vertex(node)?, key);
+                    let is_live = writes.iter().any(|(_, write)| write.value == number(value));
+                    (!is_live).then(|| format!("INTENT-2: {key} = {value} is lost"))
+                }
+                Property::Revived(node) => {
+                    seen.has_vertex(vertex(node)?).then(|| format!("STATE-3: #{node} is shown"))
+                }
+                _ => None,
+            }
+        })
+    }
+
+    /// The first replica asks everybody, then everybody asks the first.
+    fn resynchronise(&mut self) -> Result<(), CannotHappen> {
+        let others = 1..self.recorder.states().len();
+        let asks = others.clone().map(|other| (other, 0));
+        for (replica, to) in asks.chain(others.map(|other| (0, other))) {
+            let message = self.recorder.messages().len();
+            self.recorder.record(&Event::Answer { replica, to })?;
+            self.recorder.record(&Event::Deliver { replica: to, message })?;
+        }
+        Ok(())
+    }
+
+    fn end(self, row: &Row, broken: Option<String>, resynchronised: bool) -> Twin {
+        let names = self.recorder.scribe().names(0..self.recorder.states().len());
+        let kind = if broken.is_some() { FindingKind::Broken } else { FindingKind::Holds };
+        let finding = Finding {
+            kind,
+            clause: row.setup.property.clause().into(),
+            what: "the replicas end equal, and every view keeps the invariants".into(),
+            detail: broken
+                .clone()
+                .unwrap_or_else(|| "all replicas are equal, and every view is sound".into()),
+            replicas: names,
+        };
+        let title = format!("{}. {}: the same schedule", row.row, row.title);
+        let trace = self.recorder.finish(title, "gallery", bound(&row.setup), finding);
+        Twin { broken, deliveries: self.deliveries, refused: self.refused, resynchronised, trace }
+    }
+}
+
+impl Cast {
+    fn new(setup: &Setup) -> Self {
+        let first =
+            setup.agents.first().map_or(0, |&agent| usize::try_from(agent.saturating_sub(1)).unwrap_or(0));
+        Self { dictionary: Dictionary::open(), vertices: BTreeMap::new(), copies: BTreeMap::new(), first }
+    }
+
+    /// What each replica starts with: the first has made its calls, and all but a joiner have heard of them.
+    fn set_up(&mut self, setup: &Setup) -> Vec<State> {
+        let mut made = State::new();
+        for operation in &setup.before {
+            let author = Author::new(replica_id(self.first));
+            let before = made.clone();
+            let seen = view(&before, &self.dictionary);
+            let mutation = self.mutation(&seen, 0, operation);
+            let Some(delta) = mutation.and_then(|mutation| mutation.delta(&seen, author).ok()) else {
+                continue;
+            };
+            self.note(&before, author, operation);
+            made.join(&delta);
+        }
+        let joiner = setup.powers.joiner.as_ref().map(|joiner| joiner.replica);
+        let state = |at| if Some(at) == joiner { State::new() } else { made.clone() };
+        (0..setup.replicas()).map(state).collect()
+    }
+
+    /// Remembers which vertex a call makes.
+    fn note(&mut self, state: &State, author: Author, operation: &Operation) {
+        if let (Operation::InsertNode { id, .. }, Some(dot)) = (operation, state.next_dot(author.replica)) {
             self.vertices.insert(*id, VertexId(dot));
         }
-        self.states[replica].join(&delta);
-        Some(delta)
     }
 
     fn mutation(&self, seen: &View<'_>, replica: usize, operation: &Operation) -> Option<Mutation> {
@@ -179,64 +303,6 @@ impl Replay {
                 let attributes = numbers(&[("rt", pose)]);
                 Some(Mutation::MoveEdge { from: old, to: key(from, RT, to)?, attributes })
             }
-        }
-    }
-
-    /// The first view that breaks an invariant.
-    fn judge(&self) -> Option<String> {
-        self.states.iter().zip(&self.replicas).find_map(|(state, replica)| {
-            let broken = check_view(&view(state, &self.dictionary)).err()?;
-            Some(format!("{broken:?} at agent {}", replica.agent))
-        })
-    }
-
-    /// What a row says of one node, where the invariants do not cover it: a write that nobody superseded is
-    /// live everywhere, hidden by a greater one at most; what was removed is not shown.
-    fn judge_property(&self, property: Property) -> Option<String> {
-        let vertex = |node: NodeId| self.vertices.get(&node).copied();
-        self.states.iter().find_map(|state| {
-            let seen = view(state, &self.dictionary);
-            match property {
-                Property::Lost(node, key, value) => {
-                    let writes = seen.attribute_writes(vertex(node)?, key);
-                    let is_live = writes.iter().any(|(_, write)| write.value == number(value));
-                    (!is_live).then(|| format!("INTENT-2: {key} = {value} is lost"))
-                }
-                Property::Revived(node) => {
-                    seen.has_vertex(vertex(node)?).then(|| format!("STATE-3: #{node} is shown"))
-                }
-                _ => None,
-            }
-        })
-    }
-
-    /// Judges the end: equal at once if everything has arrived, else after resynchronisation.
-    fn end(mut self, setup: &Setup, network: &Network, at: Moment) -> Checked {
-        for copy in network.letters(at) {
-            let rest = Happening::Deliver(copy, false);
-            self.happen(setup, &rest, Vec::new());
-        }
-        let powers = &setup.powers;
-        let missed = powers.losses_max > 0 || powers.joiner.is_some() || powers.restarts.is_some();
-        if missed && self.states.iter().any(|state| *state != self.states[0]) {
-            self.resynchronise();
-            self.outcome.resynchronised = true;
-        }
-        let differ = self.states.iter().any(|state| *state != self.states[0]);
-        let broken = self.judge().or_else(|| differ.then(|| "JOIN-5: the replicas differ".into()));
-        let broken = broken.or_else(|| self.judge_property(setup.property));
-        Checked { broken, ..self.outcome }
-    }
-
-    /// The first replica asks everybody, then everybody asks the first.
-    fn resynchronise(&mut self) {
-        for other in 1..self.states.len() {
-            let delta = delta_for(&self.states[other], &digest(&self.states[0]));
-            self.states[0].join(&delta);
-        }
-        for other in 1..self.states.len() {
-            let delta = delta_for(&self.states[0], &digest(&self.states[other]));
-            self.states[other].join(&delta);
         }
     }
 }

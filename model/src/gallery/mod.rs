@@ -11,16 +11,19 @@
 //! | `joining` | whoever joins, restarts, or does not hear |
 //! | `kinematics` | names, parents, levels |
 //! | `run` | a row's search and its report |
+//! | `record` | a row's schedule as a trace |
 //! | `checked` | the same schedule on `dsr-core` |
 
 mod checked;
 mod edges;
 mod joining;
 mod kinematics;
+mod record;
 mod registers;
 mod run;
 
-pub use checked::{Checked, run_checked};
+pub use checked::{Twin, run_checked};
+pub use record::{PublishedRun, SEMANTICS};
 pub use run::{ControlReport, Found, RowReport, run_control, run_row};
 
 use crate::published::{Guard, Operation, Order, Play, Powers, Property, Setup, Variant, When};

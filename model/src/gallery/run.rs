@@ -1,9 +1,11 @@
 //! A row's search and its report.
 
-use super::{Checked, Row, run_checked};
+use super::record::PublishedRun;
+use super::{Row, Twin, run_checked};
 use crate::published::{Happening, Network, Order, Setup};
 use crate::search::{Space, find_fault};
 use crate::semantics::Breach;
+use crate::trace::Trace;
 use std::time::Instant;
 
 /// The most moments that a row's search looks at.
@@ -50,13 +52,15 @@ pub struct RowReport {
     /// How long the search took.
     pub seconds: f64,
     /// What happens.
-    pub trace: Vec<Happening>,
+    pub schedule: Vec<Happening>,
     /// The same, a line each.
     pub lines: Vec<String>,
+    /// The same, as a trace.
+    pub trace: Option<Trace>,
     /// What is broken then.
     pub breach: Option<Breach>,
     /// What the checked semantics does with the same schedule.
-    pub checked: Option<Checked>,
+    pub checked: Option<Twin>,
     /// The same search without the cause.
     pub control: Option<ControlReport>,
 }
@@ -73,8 +77,9 @@ pub fn run_row(row: &Row) -> RowReport {
         states: 0,
         steps: 0,
         seconds: 0.0,
-        trace: Vec::new(),
+        schedule: Vec::new(),
         lines: Vec::new(),
+        trace: None,
         breach: None,
         checked: None,
         control: run_control(row),
@@ -91,11 +96,17 @@ pub fn run_row(row: &Row) -> RowReport {
     };
     report.found = Found::Search;
     report.steps = found.events.len();
-    report.trace = found.events.iter().map(|(_, event)| network.happening(event)).collect();
-    report.lines = report.trace.iter().map(|happening| setup.line(happening)).collect();
+    report.schedule = found.events.iter().map(|(_, event)| network.happening(event)).collect();
+    report.lines = report.schedule.iter().map(|happening| setup.line(happening)).collect();
+    report.trace = write(row, &report.schedule, &found.fault);
     report.breach = Some(found.fault);
-    report.checked = run_checked(setup, &report.trace);
+    report.checked = run_checked(row, &report.schedule);
     report
+}
+
+fn write(row: &Row, schedule: &[Happening], breach: &Breach) -> Option<Trace> {
+    let mut run = PublishedRun::new(&row.setup);
+    schedule.iter().all(|happening| run.happen(happening)).then(|| run.finish(row, breach))
 }
 
 /// What a search of a row's control came to.
@@ -124,7 +135,7 @@ pub fn run_control(row: &Row) -> Option<ControlReport> {
 }
 
 /// How far a search goes, in words.
-fn bound(setup: &Setup) -> String {
+pub(super) fn bound(setup: &Setup) -> String {
     let calls: usize = setup.plays.iter().map(|play| usize::from(play.calls_max)).sum();
     let powers = &setup.powers;
     let order = match powers.order {

@@ -13,6 +13,7 @@ mod known;
 mod run;
 mod shapes;
 mod symmetry;
+mod trace;
 
 pub use judge::Fault;
 pub use run::HistoryRun;
@@ -189,20 +190,6 @@ impl<S: Semantics> Histories<S> {
         let to = self.permutations.get(permutation);
         let rename = |&delta| self.tables.rename_delta(&self.semantics, delta, permutation, to);
         set.iter().map(rename).collect()
-    }
-
-    /// The number of a state from outside the search, for its trace. Nothing is done in it.
-    pub(crate) fn intern(&mut self, state: S::State) -> StateId {
-        let id = self.tables.intern(state);
-        if id as usize == self.origins.len() {
-            self.origins.push(Arc::default());
-        }
-        id
-    }
-
-    /// The number of a delta from outside the search, for its trace.
-    pub(crate) fn intern_delta(&mut self, delta: S::Delta) -> DeltaId {
-        self.tables.intern_delta(delta, 0)
     }
 
     /// What was computed.

@@ -1,11 +1,12 @@
 //! One run of L1 and its report. `[spec: CHECK-3]` `[spec: CHECK-9]` `[spec: CHECK-10]`
 
+use super::trace;
 use super::{Bound, Histories};
 use crate::progress::Progress;
 use crate::search::{COUNTEREXAMPLE_MAX, Findings, find_fault, search};
 use crate::semantics::{Breach, Clause, Semantics};
-use crate::trace::{Trace, TraceWriter};
-use crate::verdict::{RunReport, RunTrace, StateCounts};
+use crate::trace::{CannotHappen, Trace};
+use crate::verdict::{RunReport, StateCounts};
 use std::sync::Arc;
 
 /// What this layer judges besides: its own conclusions.
@@ -40,7 +41,7 @@ impl<S: Semantics> HistoryRun<S> {
         let judged = histories.judged();
         let mut findings = Findings {
             nodes: "histories",
-            clauses: self.semantics.clauses().into_iter().chain([SHAPES]).collect(),
+            clauses: self.clauses(),
             seen: self.witnesses(&histories),
             states: StateCounts {
                 judged: judged.states,
@@ -63,8 +64,11 @@ impl<S: Semantics> HistoryRun<S> {
         let counterexample = findings.breach.as_ref().and_then(|_| self.counterexample());
         let (breach, trace) = counterexample.unzip();
         findings.breach = breach.or(findings.breach);
-        let report = found.report(findings, run);
-        RunReport { traces: trace.map(RunTrace::from).into_iter().collect(), ..report }
+        found.report(findings, run).with_trace(trace)
+    }
+
+    fn clauses(&self) -> Vec<Clause> {
+        self.semantics.clauses().into_iter().chain([SHAPES]).collect()
     }
 
     /// What a run of these kinds must see: each kind done, each pair of kinds concurrent.
@@ -101,7 +105,7 @@ impl<S: Semantics> HistoryRun<S> {
     }
 
     /// The shortest way to a violation, sought without symmetry; without shapes if there is one without.
-    fn counterexample(&self) -> Option<(Breach, Trace)> {
+    fn counterexample(&self) -> Option<(Breach, Result<Trace, CannotHappen>)> {
         for mutations in 1..=self.bound.mutations {
             let bound = Bound { mutations, ..self.bound };
             for shapes in [false, true] {
@@ -110,7 +114,8 @@ impl<S: Semantics> HistoryRun<S> {
                 if let Some(mut found) = find_fault(&mut histories, COUNTEREXAMPLE_MAX) {
                     found.fault = histories.shrunk(found.fault);
                     let breach = found.fault.breach().clone();
-                    return Some((breach, TraceWriter::write(&*self.semantics, &mut histories, &found)));
+                    let trace = trace::write(&*self.semantics, &mut histories, &self.clauses(), &found);
+                    return Some((breach, trace));
                 }
             }
         }

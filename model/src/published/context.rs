@@ -36,6 +36,11 @@ impl Context {
         self.counters.get(&id).copied()
     }
 
+    /// The counters of the compact part, by id.
+    pub fn counters(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
+        self.counters.iter().map(|(&id, &n)| (id, n))
+    }
+
     /// The counters of the dots beyond the compact part.
     pub fn cloud(&self) -> impl Iterator<Item = Dot> + '_ {
         self.cloud.iter().copied()

@@ -13,15 +13,17 @@
 //! | `remote`, `remote_edges`, `snapshot` | what a replica does with what arrives |
 //! | `setup`, `world`, `tables`, `space`, `machines` | several replicas and their network, as a space to search |
 //! | `property` | what may break |
-//! | `show` | events in words, and replay |
+//! | `show`, `picture`, `json` | events in words, and replay; what a replica shows; all of it, for traces |
 
 mod buffers;
 mod context;
 mod graph;
+mod json;
 mod local;
 mod machines;
 mod message;
 mod operation;
+mod picture;
 mod property;
 mod register;
 mod remote;

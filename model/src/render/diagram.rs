@@ -1,7 +1,6 @@
 //! The layout that all renderers share.
 
-use super::RenderError;
-use crate::trace::{Act, Trace, TraceStep};
+use crate::trace::{Act, Sent, Trace, TraceStep, Unsound};
 use std::collections::BTreeMap;
 
 /// A trace whose names are resolved: lanes, rows, and for each delivery where it comes from.
@@ -11,7 +10,7 @@ pub struct Diagram<'t> {
     pub trace: &'t Trace,
     /// The replicas' names, in the order of the trace.
     pub lanes: Vec<&'t str>,
-    /// The steps, in order. The clause breaks at the last.
+    /// The steps, in order. What is found is found after the last.
     pub rows: Vec<Row<'t>>,
 }
 
@@ -22,58 +21,74 @@ pub struct Row<'t> {
     pub lane: usize,
     /// What happens.
     pub event: Event<'t>,
-    /// What changes in the replica's view, a line each.
-    pub changes: &'t [String],
+    /// What changes in what the replica shows, a line each.
+    pub changes: Vec<String>,
 }
 
 /// What happens in a row.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Event<'t> {
-    /// A mutation, and a message for everybody.
+    /// A mutation, and messages for everybody.
     Mutation {
-        /// The message.
-        message: &'t str,
         /// The mutation, for people.
         text: &'t str,
+        /// The messages.
+        sends: &'t [Sent],
     },
     /// A message arrives.
-    Delivery {
-        /// The message.
-        message: &'t str,
-        /// The row that sent it.
-        sent: usize,
-        /// The lane that sent it.
-        from: usize,
-    },
+    Delivery(Arrow<'t>),
+    /// A message never arrives.
+    Loss(Arrow<'t>),
     /// The replica stops and starts again.
-    Restart,
-    /// An answer to a digest arrives. A trace does not tell when it was sent.
-    Resynchronisation {
-        /// The lane that answered.
-        from: usize,
+    Restart {
+        /// Whether with its state.
+        keeps: bool,
     },
+    /// The replica sends another what that one lacks.
+    Answer {
+        /// Whom: a lane.
+        to: usize,
+        /// The messages.
+        sends: &'t [Sent],
+    },
+    /// Something else.
+    Other {
+        /// What.
+        text: &'t str,
+    },
+}
+
+/// Where a message comes from.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Arrow<'t> {
+    /// The message.
+    pub message: &'t str,
+    /// The row that sent it.
+    pub sent: usize,
+    /// The lane that sent it.
+    pub from: usize,
+    /// Whether it was sent to one replica only.
+    pub is_answer: bool,
 }
 
 impl<'t> Diagram<'t> {
     /// Resolves every name of a trace. `[spec: TRACE-3]`
-    pub fn of(trace: &'t Trace) -> Result<Self, RenderError> {
-        if trace.replicas.is_empty() {
-            return Err(RenderError::NoReplicas);
-        }
-        let mut numbers = BTreeMap::new();
-        for (lane, name) in trace.replicas.iter().enumerate() {
-            if numbers.insert(name.as_str(), lane).is_some() {
-                return Err(RenderError::TwoReplicas { name: name.clone() });
-            }
-        }
-        let mut names = Names { lanes: numbers, sent: BTreeMap::new() };
-        let rows = trace.steps.iter().enumerate().map(|(at, step)| names.row(at, step));
-        let rows = rows.collect::<Result<_, _>>()?;
-        Ok(Self { trace, lanes: trace.replicas.iter().map(String::as_str).collect(), rows })
+    pub fn of(trace: &'t Trace) -> Result<Self, Unsound> {
+        trace.check()?;
+        let lanes: Vec<&str> = trace.replicas.iter().map(|replica| &*replica.name).collect();
+        let names = trace.names();
+        let mut layout = Layout { lanes: &lanes, sent: BTreeMap::new() };
+        let rows = trace.steps.iter().enumerate().map(|(at, step)| {
+            let changes = step.changes.iter().flat_map(|change| change.lines(&names)).collect();
+            let (lane, event) = layout.row(at, step)?;
+            Ok(Row { lane, event, changes })
+        });
+        let rows = rows.collect::<Result<_, Unsound>>()?;
+        Ok(Self { trace, lanes, rows })
     }
 
-    /// The lane in which the clause breaks; the first if it breaks before any step.
-    pub fn breaking_lane(&self) -> usize {
+    /// The lane of the last step, or the first.
+    pub fn last_lane(&self) -> usize {
         self.rows.last().map_or(0, |row| row.lane)
     }
 
@@ -81,62 +96,75 @@ impl<'t> Diagram<'t> {
     pub fn headline(&self) -> String {
         let Self { trace, rows, .. } = self;
         let steps = if rows.len() == 1 { "step" } else { "steps" };
-        format!("{}, {}: {} {steps} to {}", trace.semantics, trace.layer, rows.len(), trace.breach.clause)
+        format!("{} ({}, {}, {} {steps})", trace.title, trace.semantics, trace.layer, rows.len())
     }
 
     /// What happens in a row, in words, without its replica.
     pub fn words(&self, row: &Row<'_>) -> String {
         let name = |lane: usize| if lane == row.lane { "itself" } else { self.lanes[lane] };
         match row.event {
-            Event::Mutation { message, text } => {
-                let text = if text.is_empty() { "mutates" } else { text };
-                format!("{text}  → {message}")
+            Event::Mutation { text, sends: [] } | Event::Other { text } => text.to_owned(),
+            Event::Mutation { text, sends } => format!("{text}  → {}", messages(sends)),
+            Event::Delivery(Arrow { message, from, .. }) => format!("receives {message} from {}", name(from)),
+            Event::Loss(Arrow { message, from, .. }) => {
+                format!("never receives {message} from {}", name(from))
             }
-            Event::Delivery { message, from, .. } => format!("receives {message} from {}", name(from)),
-            Event::Restart => "restarts under a fresh incarnation".into(),
-            Event::Resynchronisation { from } => format!("resynchronises with {}", name(from)),
+            Event::Restart { keeps: true } => "restarts with its state".into(),
+            Event::Restart { keeps: false } => "restarts without its state".into(),
+            Event::Answer { to, sends } => format!("sends {} what it lacks  → {}", name(to), messages(sends)),
         }
     }
 
-    /// The broken clause, with what is wrong.
-    pub fn breach(&self) -> String {
-        let (clause, detail) = (format!("[{}]", self.trace.breach.clause), &self.trace.breach.detail);
-        // Some details name the clause themselves.
-        if detail.starts_with(&clause) { detail.clone() } else { format!("{clause} {detail}") }
+    /// What is found, with its sign.
+    pub fn finding(&self) -> String {
+        format!("{} {}", self.trace.finding.kind.sign(), self.trace.finding)
     }
+}
+
+fn messages(sends: &[Sent]) -> String {
+    let told = |sent: &Sent| {
+        if sent.text.is_empty() || sends.len() < 2 {
+            sent.message.clone()
+        } else {
+            format!("{} ({})", sent.message, sent.text)
+        }
+    };
+    sends.iter().map(told).collect::<Vec<_>>().join(", ")
 }
 
 /// The names that are known so far.
-struct Names<'t> {
-    lanes: BTreeMap<&'t str, usize>,
-    /// By message, the row and the lane that sent it.
-    sent: BTreeMap<&'t str, (usize, usize)>,
+struct Layout<'l, 't> {
+    lanes: &'l [&'t str],
+    /// By message, the row and the lane that sent it, and whether it is an answer.
+    sent: BTreeMap<&'t str, (usize, usize, bool)>,
 }
 
-impl<'t> Names<'t> {
-    fn lane(&self, at: usize, name: &str) -> Result<usize, RenderError> {
-        let unknown = || RenderError::UnknownReplica { step: at + 1, name: name.to_owned() };
-        self.lanes.get(name).copied().ok_or_else(unknown)
+impl<'t> Layout<'_, 't> {
+    fn lane(&self, at: usize, name: &str) -> Result<usize, Unsound> {
+        let lane = self.lanes.iter().position(|known| *known == name);
+        lane.ok_or_else(|| Unsound::Replica { step: at + 1, replica: name.to_owned() })
     }
 
-    fn row(&mut self, at: usize, step: &'t TraceStep) -> Result<Row<'t>, RenderError> {
+    fn arrow(&self, at: usize, message: &'t str) -> Result<Arrow<'t>, Unsound> {
+        let sent = self.sent.get(message).copied();
+        let (sent, from, is_answer) =
+            sent.ok_or_else(|| Unsound::Message { step: at + 1, message: message.to_owned() })?;
+        Ok(Arrow { message, sent, from, is_answer })
+    }
+
+    fn row(&mut self, at: usize, step: &'t TraceStep) -> Result<(usize, Event<'t>), Unsound> {
         let lane = self.lane(at, &step.replica)?;
-        let event = match &step.act {
-            Act::Mutate { message, text, .. } => {
-                if let Some((first, _)) = self.sent.insert(message, (at, lane)) {
-                    let message = message.clone();
-                    return Err(RenderError::SentTwice { step: at + 1, first: first + 1, message });
-                }
-                Event::Mutation { message, text }
-            }
-            Act::Deliver { message } => {
-                let unknown = || RenderError::UnknownMessage { step: at + 1, message: message.clone() };
-                let (sent, from) = self.sent.get(message.as_str()).copied().ok_or_else(unknown)?;
-                Event::Delivery { message, sent, from }
-            }
-            Act::Restart => Event::Restart,
-            Act::Resynchronise { from, .. } => Event::Resynchronisation { from: self.lane(at, from)? },
+        let is_answer = matches!(step.does, Act::Answer { .. });
+        let sent = step.does.sends().iter().map(|sent| (&*sent.message, (at, lane, is_answer)));
+        self.sent.extend(sent);
+        let event = match &step.does {
+            Act::Mutate { text, sends, .. } => Event::Mutation { text, sends },
+            Act::Deliver { message, .. } => Event::Delivery(self.arrow(at, message)?),
+            Act::Lose { message } => Event::Loss(self.arrow(at, message)?),
+            Act::Restart { keeps } => Event::Restart { keeps: *keeps },
+            Act::Answer { to, sends } => Event::Answer { to: self.lane(at, to)?, sends },
+            Act::Happen { text } => Event::Other { text },
         };
-        Ok(Row { lane, event, changes: &step.changes })
+        Ok((lane, event))
     }
 }

@@ -1,9 +1,9 @@
 //! Sequence diagrams in the language of Mermaid.
 //!
-//! A message is drawn when it is received: Mermaid has no arrows that take time. The answer of a
-//! resynchronisation is dotted.
+//! A message is drawn when it is received: Mermaid has no arrows that take time. An answer is dotted; what is lost
+//! ends in a cross.
 
-use super::diagram::{Diagram, Event};
+use super::diagram::{Arrow, Diagram, Event};
 use super::words::{add, one_line, wrap};
 
 /// Characters on a line of a note.
@@ -18,9 +18,10 @@ pub(super) fn mermaid(diagram: &Diagram<'_>) -> String {
     for (at, row) in diagram.rows.iter().enumerate() {
         let (step, lane) = (at + 1, row.lane + 1);
         let arrow = match row.event {
-            Event::Delivery { message, from, .. } => Some((from, "->>", message.to_owned())),
-            Event::Resynchronisation { from } => Some((from, "-->>", diagram.words(row))),
-            Event::Mutation { .. } | Event::Restart => None,
+            Event::Delivery(Arrow { message, from, is_answer: false, .. }) => Some((from, "->>", message)),
+            Event::Delivery(Arrow { message, from, .. }) => Some((from, "-->>", message)),
+            Event::Loss(Arrow { message, from, .. }) => Some((from, "-x", message)),
+            _ => None,
         };
         let mut lines = Vec::new();
         if let Some((from, arrow, label)) = arrow {
@@ -34,9 +35,9 @@ pub(super) fn mermaid(diagram: &Diagram<'_>) -> String {
             add(&mut text, format_args!("    Note over p{lane}: {}\n", joined(&lines)));
         }
     }
-    let lane = diagram.breaking_lane() + 1;
-    let breach = wrap(&format!("✗ {}", diagram.breach()), NOTE_WIDTH, 0);
-    add(&mut text, format_args!("    Note over p{lane}: {}\n", joined(&breach)));
+    let lane = diagram.last_lane() + 1;
+    let finding = wrap(&diagram.finding(), NOTE_WIDTH, 0);
+    add(&mut text, format_args!("    Note over p{lane}: {}\n", joined(&finding)));
     text
 }
 

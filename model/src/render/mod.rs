@@ -11,9 +11,9 @@ mod svg;
 mod text;
 mod words;
 
-pub use diagram::{Diagram, Event, Row};
+pub use diagram::{Arrow, Diagram, Event, Row};
 
-use crate::trace::Trace;
+use crate::trace::{Trace, Unsound};
 
 /// What a trace is rendered to.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -29,44 +29,12 @@ pub enum Target {
     Shiviz,
 }
 
-/// Why a trace cannot be rendered. Steps count from 1.
+/// Why a trace cannot be rendered.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum RenderError {
-    /// There is nobody to draw.
-    #[error("the trace names no replicas")]
-    NoReplicas,
-    /// A name stands for two lanes.
-    #[error("two replicas are named {name:?}")]
-    TwoReplicas {
-        /// The name.
-        name: String,
-    },
-    /// A step of, or an answer from, nobody.
-    #[error("step {step} names the replica {name:?}, which the trace does not list")]
-    UnknownReplica {
-        /// Which step.
-        step: usize,
-        /// The name.
-        name: String,
-    },
-    /// A delivery from nowhere.
-    #[error("step {step} delivers the message {message:?}, which no step before it sends")]
-    UnknownMessage {
-        /// Which step.
-        step: usize,
-        /// The message.
-        message: String,
-    },
-    /// A message that could come from either of two steps.
-    #[error("step {step} sends the message {message:?}, which step {first} has sent already")]
-    SentTwice {
-        /// Which step.
-        step: usize,
-        /// The step before it.
-        first: usize,
-        /// The message.
-        message: String,
-    },
+    /// It cannot be.
+    #[error(transparent)]
+    Unsound(#[from] Unsound),
     /// More lanes than fit on a line of text.
     #[error("{replicas} replicas do not fit on a line of text, which holds at most {most}")]
     TooWide {

@@ -6,10 +6,9 @@
 //! (?<event>.*)\n(?<host>\S*) (?<clock>\{.*\})
 //! ```
 //!
-//! A trace does not tell when the answer of a resynchronisation was sent. It counts as sent last thing before it
-//! arrives: it may look newer than it was. A replica that restarts stays one host.
+//! A replica that restarts stays one host.
 
-use super::diagram::{Diagram, Event};
+use super::diagram::{Arrow, Diagram, Event};
 use super::words::{add, one_line};
 use serde_json::Value;
 
@@ -21,16 +20,16 @@ pub(super) fn shiviz(diagram: &Diagram<'_>) -> String {
     for (at, (row, clock)) in diagram.rows.iter().zip(&clocks).enumerate() {
         // The word at the start keeps the expression from taking an event for a host with its clock.
         let mut event = format!("step {}: {}", at + 1, diagram.words(row));
-        for change in row.changes {
+        for change in &row.changes {
             add(&mut event, format_args!("; {change}"));
         }
         if at + 1 == diagram.rows.len() {
-            add(&mut event, format_args!("; ✗ {}", diagram.breach()));
+            add(&mut event, format_args!("; {}", diagram.finding()));
         }
         log += &entry(&event, &hosts, row.lane, clock);
     }
     if diagram.rows.is_empty() {
-        log += &entry(&format!("✗ {}", diagram.breach()), &hosts, 0, &[1]);
+        log += &entry(&diagram.finding(), &hosts, 0, &[1]);
     }
     log
 }
@@ -48,9 +47,8 @@ fn clocks(diagram: &Diagram<'_>) -> Vec<Vec<u64>> {
     let mut clocks: Vec<Vec<u64>> = Vec::new();
     for row in &diagram.rows {
         let heard = match row.event {
-            Event::Delivery { sent, .. } => clocks[sent].clone(),
-            Event::Resynchronisation { from } => now[from].clone(),
-            Event::Mutation { .. } | Event::Restart => Vec::new(),
+            Event::Delivery(Arrow { sent, .. }) => clocks[sent].clone(),
+            _ => Vec::new(),
         };
         let own = &mut now[row.lane];
         for (count, heard) in own.iter_mut().zip(heard) {

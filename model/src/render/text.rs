@@ -9,13 +9,14 @@
 //!      │       ✗      [JOIN-3] …
 //! ```
 //!
-//! Time goes down. `●` is a mutation, `◆` a delivery, `↻` a restart, `◇` the answer of a resynchronisation. An
-//! arrow starts in the sender's column, in the line of its arrival. No line is wider than 100 characters: long
+//! Time goes down. `●` is a mutation, `◆` a delivery, `×` a loss, `↻` a restart, `◇` an answer, `○` something
+//! else. An arrow starts in the sender's column, in the line of its arrival. No line is wider than 100 characters: long
 //! texts go on in the next line, and names that are wider than their columns become numbers with a list above.
 
 use super::RenderError;
-use super::diagram::{Diagram, Event, Row};
+use super::diagram::{Arrow, Diagram, Event, Row};
 use super::words::{add, one_line, wrap};
+use crate::trace::Finding;
 
 /// Characters on a line.
 const WIDTH: usize = 100;
@@ -54,8 +55,9 @@ pub(super) fn text(diagram: &Diagram<'_>) -> Result<String, RenderError> {
         page.block(&(at + 1).to_string(), &page.marks(row), &lines);
     }
     let mut marks = page.quiet();
-    marks[page.column(diagram.breaking_lane())] = '✗';
-    page.block("", &marks, &wrap(&diagram.breach(), page.beside(), 4));
+    let Finding { kind, .. } = &diagram.trace.finding;
+    marks[page.column(diagram.last_lane())] = kind.sign();
+    page.block("", &marks, &wrap(&diagram.trace.finding.to_string(), page.beside(), 4));
     Ok(page.text)
 }
 
@@ -106,14 +108,16 @@ impl Page {
         let mut marks = self.quiet();
         let sign = match row.event {
             Event::Mutation { .. } => '●',
-            Event::Restart => '↻',
-            Event::Delivery { message, from, .. } => {
-                self.arrow(&mut marks, from, row.lane, '─', &one_line(message));
+            Event::Restart { .. } => '↻',
+            Event::Answer { .. } => '◇',
+            Event::Other { .. } => '○',
+            Event::Delivery(Arrow { message, from, is_answer, .. }) => {
+                self.arrow(&mut marks, from, row.lane, if is_answer { '╌' } else { '─' }, &one_line(message));
                 '◆'
             }
-            Event::Resynchronisation { from } => {
-                self.arrow(&mut marks, from, row.lane, '╌', "");
-                '◇'
+            Event::Loss(Arrow { message, from, .. }) => {
+                self.arrow(&mut marks, from, row.lane, '╌', &one_line(message));
+                '×'
             }
         };
         marks[self.column(row.lane)] = sign;

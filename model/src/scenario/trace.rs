@@ -4,6 +4,7 @@ use super::explore::Replicated;
 use super::memo::{DeltaId, MoveKind, StateId};
 use super::script::Conduct;
 use super::space::{Broken, Choice, Space};
+use crate::graph::Names;
 use serde::Serialize;
 use serde_json::Value as Json;
 use std::cmp::Reverse;
@@ -167,7 +168,10 @@ impl<S: Replicated> Teller<'_, S> {
 
     fn see(&mut self, replica: String, state: StateId) {
         let memo = &self.space.memo;
-        let changes = memo.semantics.changes(&memo.state(self.space.initial), &memo.state(state));
+        let shows = |state| memo.semantics.shows(&memo.state(state));
+        let (before, after) = (shows(self.space.initial), shows(state));
+        let names = Names::of(before.elements.iter().chain(&after.elements));
+        let changes = before.changes(&after).iter().flat_map(|change| change.lines(&names)).collect();
         self.steps.push(ScenarioStep::See { replica, changes });
     }
 

@@ -26,6 +26,8 @@ pub use run::ScheduleRun;
 pub use space::{ScheduleFault, Schedules};
 pub use state::{Event, Message, Schedule};
 
+use std::fmt;
+
 /// How far a run of schedules goes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct ScheduleBound {
@@ -48,5 +50,21 @@ impl ScheduleBound {
     /// Everybody who receives.
     pub fn everybody(&self) -> usize {
         self.replicas + self.readers
+    }
+}
+
+/// As in `2 replicas × 1 mutation, 1 restart, 1 resynchronisation`.
+impl fmt::Display for ScheduleBound {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { replicas, readers, mutations, restarts, resynchronisations } = self;
+        write!(f, "{replicas} replicas × {mutations} mutations")?;
+        let more = [
+            (*readers, "readers"),
+            ((*restarts).into(), "restarts"),
+            ((*resynchronisations).into(), "resynchronisations"),
+        ];
+        more.iter()
+            .filter(|(count, _)| *count > 0)
+            .try_for_each(|(count, what)| write!(f, ", {count} {what}"))
     }
 }

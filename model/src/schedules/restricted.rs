@@ -1,5 +1,6 @@
 //! A semantics with a few concrete mutations only.
 
+use crate::graph::Graph;
 use crate::semantics::{Breach, Clause, Competition, Judged, Semantics, Step};
 use std::sync::Arc;
 
@@ -124,8 +125,33 @@ impl<S: Semantics> Semantics for Restricted<S> {
         self.whole.rename_delta(delta, to)
     }
 
-    fn changes(&self, before: &S::State, after: &S::State) -> Vec<String> {
-        self.whole.changes(before, after)
+    fn shows(&self, state: &S::State) -> Graph {
+        self.whole.shows(state)
+    }
+
+    fn mutation_text(&self, state: &S::State, mutation: &S::Mutation) -> String {
+        self.whole.mutation_text(state, mutation)
+    }
+
+    fn delta_text(&self, delta: &S::Delta) -> String {
+        self.whole.delta_text(delta)
+    }
+
+    fn join_deltas(&self, left: &S::Delta, right: &S::Delta) -> Option<S::Delta> {
+        self.whole.join_deltas(left, right)
+    }
+
+    fn setup_json(&self) -> serde_json::Value {
+        self.whole.setup_json()
+    }
+
+    fn mutation_from_json(
+        &self,
+        state: &S::State,
+        replica: usize,
+        json: &serde_json::Value,
+    ) -> Option<S::Mutation> {
+        self.whole.mutation_from_json(state, replica, json)
     }
 
     fn mutation_json(&self, mutation: &S::Mutation) -> serde_json::Value {

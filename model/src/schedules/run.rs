@@ -5,8 +5,8 @@ use super::{ScheduleBound, trace};
 use crate::progress::Progress;
 use crate::search::{COUNTEREXAMPLE_MAX, Findings, find_fault, search};
 use crate::semantics::{Clause, Semantics};
-use crate::trace::Trace;
-use crate::verdict::{RunReport, RunTrace, StateCounts};
+use crate::trace::{CannotHappen, Trace};
+use crate::verdict::{RunReport, StateCounts};
 use std::sync::Arc;
 
 /// What this layer judges besides.
@@ -42,7 +42,7 @@ impl<S: Semantics> ScheduleRun<S> {
         let (judged, diamonds) = schedules.judged();
         let findings = Findings {
             nodes: "schedules",
-            clauses: self.semantics.clauses().into_iter().chain(QUIESCENCE).collect(),
+            clauses: self.clauses(),
             seen: self.witnesses(schedules.happened),
             states: StateCounts { judged, diamonds, ..StateCounts::default() },
             breach: found.fault().map(|fault| fault.breach.clone()),
@@ -58,8 +58,11 @@ impl<S: Semantics> ScheduleRun<S> {
         };
         let broken = findings.breach.is_some();
         let report = found.report(findings, run);
-        let trace = if broken { self.counterexample() } else { None };
-        RunReport { traces: trace.map(RunTrace::from).into_iter().collect(), ..report }
+        report.with_trace(if broken { self.counterexample() } else { None })
+    }
+
+    fn clauses(&self) -> Vec<Clause> {
+        self.semantics.clauses().into_iter().chain(QUIESCENCE).collect()
     }
 
     /// What must have happened, given the bound.
@@ -73,9 +76,9 @@ impl<S: Semantics> ScheduleRun<S> {
     }
 
     /// The shortest way to a violation.
-    fn counterexample(&self) -> Option<Trace> {
+    fn counterexample(&self) -> Option<Result<Trace, CannotHappen>> {
         let mut schedules = Schedules::new(self.semantics.clone(), self.bound);
         let found = find_fault(&mut schedules, COUNTEREXAMPLE_MAX)?;
-        Some(trace::write(&mut schedules, &found))
+        Some(trace::write(&mut schedules, &self.clauses(), &found))
     }
 }

@@ -2,7 +2,6 @@
 
 use super::state::{Event, Message, NO_ANSWER, Schedule};
 use super::{RESYNCHRONISATIONS_MAX, ScheduleBound};
-use crate::checked::INCARNATION;
 use crate::search::Space;
 use crate::semantics::{Breach, Semantics};
 use crate::tables::{DeltaId, StateId, Tables};
@@ -106,7 +105,7 @@ impl<S: Semantics> Schedules<S> {
 
     fn mutate(&mut self, at: &Schedule, replica: usize, out: &mut Vec<(Event, Schedule)>) -> Found {
         let before = at.states[replica];
-        let identity = replica + INCARNATION * usize::from(at.incarnations[replica]);
+        let identity = at.identity(replica);
         let moves = match self.tables.moves(&self.semantics, before, identity) {
             Ok(moves) => moves,
             Err(fault) => {

@@ -1,6 +1,7 @@
 //! A moment of all replicas and of the network.
 
 use super::RESYNCHRONISATIONS_MAX;
+use crate::checked::INCARNATION;
 use crate::histories::{MUTATIONS_MAX, REPLICAS_MAX};
 use crate::search::hash_numbers;
 use crate::tables::{DeltaId, NONE, StateId};
@@ -85,6 +86,19 @@ pub enum Event {
     },
 }
 
+impl Event {
+    /// Who acts.
+    pub const fn replica(&self) -> usize {
+        match *self {
+            Self::Mutate { replica, .. }
+            | Self::Deliver { replica, .. }
+            | Self::Lose { replica, .. }
+            | Self::Restart { replica, .. }
+            | Self::Resynchronise { replica, .. } => replica,
+        }
+    }
+}
+
 impl Hash for Schedule {
     fn hash<H: Hasher>(&self, hasher: &mut H) {
         hash_numbers(&self.states, hasher);
@@ -115,6 +129,11 @@ impl Schedule {
             resynchronisations: 0,
             in_flight: 0,
         }
+    }
+
+    /// The index by which a replica mutates: its own, and its incarnation. `[spec: CRASH-2]`
+    pub fn identity(&self, replica: usize) -> usize {
+        replica + INCARNATION * usize::from(self.incarnations[replica])
     }
 
     /// How many mutations a replica has made.

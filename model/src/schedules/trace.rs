@@ -1,115 +1,135 @@
-//! Schedules as traces.
+//! Schedules as traces. `[spec: TRACE-4]`
 
 use super::space::Schedules;
 use super::state::{Event, Message, Schedule};
-use crate::checked::INCARNATION;
+use crate::course;
 use crate::search::Counterexample;
-use crate::semantics::Semantics;
-use crate::tables::{DeltaId, StateId};
-use crate::trace::{Act, TRACE_VERSION, Trace, TraceBreach, TraceStep};
+use crate::semantics::{Clause, Semantics};
+use crate::trace::{CannotHappen, Finding, Recorder, Trace};
 
-/// The trace of a counterexample. What is lost does not appear in it: it never arrives.
+/// The trace of a counterexample. Where everything is delivered, or all resynchronise, and still they differ,
+/// that is part of it.
 pub(super) fn write<S: Semantics>(
     schedules: &mut Schedules<S>,
+    clauses: &[Clause],
     found: &Counterexample<Schedules<S>>,
-) -> Trace {
-    let mut broadcasts = Vec::new();
-    let mut senders = Vec::new();
-    let mut steps = Vec::new();
+) -> Result<Trace, CannotHappen> {
+    let semantics = schedules.semantics.clone();
+    let (everybody, bound) = (schedules.bound.everybody(), schedules.bound);
+    let recorder = Recorder::new(&*semantics, (1..=everybody).map(|at| format!("r{at}")));
+    let mut writer = Writer { schedules, recorder, broadcasts: Vec::new(), answers: Vec::new() };
     // An event that cannot be had without breaking a clause comes last.
     let last = found.fault.event.map(|event| (found.end, event));
     for (before, event) in found.events.iter().chain(&last) {
-        if let Event::Mutate { replica, .. } = event {
-            broadcasts.push((*replica, before.made(*replica)));
-        }
-        if let Event::Resynchronise { from, .. } = event {
-            senders.push(*from);
-        }
-        steps.extend(step(schedules, before, event, &broadcasts, senders.last().copied()));
+        let event = writer.event(before, event)?;
+        writer.recorder.record(&event)?;
     }
-    let everybody = schedules.bound.everybody();
-    let semantics = schedules.semantics.clone();
-    let json = |state: StateId| semantics.state_json(&schedules.tables.state(state));
-    let states = (0..everybody).map(|replica| (name(replica), json(found.end.states[replica]))).collect();
-    let breach = &found.fault.breach;
-    Trace {
-        format: "dsr-trace".into(),
-        version: TRACE_VERSION,
-        semantics: semantics.name(),
-        layer: "L2".into(),
-        replicas: (0..everybody).map(name).collect(),
-        initial: semantics.state_json(&semantics.initial()),
-        steps,
-        breach: TraceBreach { clause: breach.clause.into(), detail: breach.detail.clone(), states },
-    }
+    let at: Vec<usize> = if let Some(event) = &found.fault.event {
+        vec![event.replica()]
+    } else {
+        writer.come_to_rest()?;
+        (0..everybody).collect()
+    };
+    let shown_by = writer.recorder.scribe().names(at);
+    let finding = Finding::broken(clauses, &found.fault.breach, shown_by);
+    let title = format!("{} is broken: {}", finding.clause, finding.what);
+    Ok(writer.recorder.finish(title, "L2", bound.to_string(), finding))
 }
 
-fn step<S: Semantics>(
-    schedules: &mut Schedules<S>,
-    before: &Schedule,
-    event: &Event,
-    broadcasts: &[(usize, usize)],
-    answered_by: Option<usize>,
-) -> Option<TraceStep> {
-    let message_name = |author: usize, made: usize| {
-        let at = broadcasts.iter().position(|broadcast| *broadcast == (author, made));
-        format!("m{}", at.map_or(0, |at| at + 1))
-    };
-    let (replica, act, after) = match *event {
-        Event::Mutate { replica, delta } => {
-            let act =
-                mutate_act(schedules, before, replica, delta, message_name(replica, before.made(replica)));
-            (replica, act, received(schedules, before, replica, delta))
+struct Writer<'h, S: Semantics> {
+    schedules: &'h Schedules<S>,
+    recorder: Recorder<'h, S>,
+    /// The number of each broadcast, by author and count.
+    broadcasts: Vec<(usize, usize, usize)>,
+    /// The answers under way: to whom, and their numbers.
+    answers: Vec<(usize, usize)>,
+}
+
+impl<S: Semantics> Writer<'_, S> {
+    fn event(
+        &mut self,
+        before: &Schedule,
+        event: &Event,
+    ) -> Result<course::Event<S::Mutation>, CannotHappen> {
+        let next = self.recorder.messages().len();
+        Ok(match *event {
+            Event::Mutate { replica, delta } => {
+                self.broadcasts.push((replica, before.made(replica), next));
+                let identity = before.identity(replica);
+                let tables = self.schedules.tables();
+                let (state, delta) = (tables.state(before.states[replica]), tables.delta(delta));
+                let mutation = self.schedules.semantics.mutation_of(&state, identity, &delta);
+                let unknown = || CannotHappen::NoMutation {
+                    replica: format!("r{}", replica + 1),
+                    mutation: format!("{delta:?}"),
+                };
+                course::Event::Mutate { replica, mutations: vec![mutation.ok_or_else(unknown)?] }
+            }
+            Event::Deliver { replica, message, again } => {
+                let number = self.number(before, message, !again);
+                course::Event::Deliver { replica, message: number }
+            }
+            Event::Lose { replica, message } => {
+                course::Event::Lose { replica, message: self.number(before, message, true) }
+            }
+            Event::Restart { replica, keeps } => course::Event::Restart { replica, keeps },
+            Event::Resynchronise { replica, from } => {
+                self.answers.push((replica, next));
+                course::Event::Answer { replica: from, to: replica }
+            }
+        })
+    }
+
+    /// The number of a message; an answer that will not arrive again is forgotten.
+    fn number(&mut self, before: &Schedule, message: Message, is_last: bool) -> usize {
+        match message {
+            Message::Delta { author, made } => {
+                let known = self.broadcasts.iter().find(|(who, count, _)| (*who, *count) == (author, made));
+                known.map_or(usize::MAX, |(_, _, number)| *number)
+            }
+            Message::Answer(at) => {
+                let (to, delta) = before.answers[at];
+                let delta = self.schedules.tables().delta(delta);
+                let is_it = |&(receiver, number): &(usize, usize)| {
+                    receiver == usize::from(to) && self.recorder.messages().get(number) == Some(&*delta)
+                };
+                let Some(at) = self.answers.iter().position(is_it) else { return usize::MAX };
+                if is_last { self.answers.remove(at).1 } else { self.answers[at].1 }
+            }
         }
-        Event::Deliver { replica, message, .. } => {
-            let delta = before.content(message);
-            let act = match message {
-                Message::Delta { author, made } => Act::Deliver { message: message_name(author, made) },
-                Message::Answer(_) => {
-                    let delta = schedules.semantics.delta_json(&schedules.tables.delta(delta));
-                    Act::Resynchronise { from: answered_by.map(name).unwrap_or_default(), delta }
+    }
+
+    /// Delivers everything to everybody; if that makes all equal, it was resynchronisation that did not, and
+    /// is recorded instead. `[spec: JOIN-5]` `[spec: SYNC-5]`
+    fn come_to_rest(&mut self) -> Result<(), CannotHappen> {
+        let semantics = self.schedules.semantics.clone();
+        let broadcasts: Vec<usize> = self.broadcasts.iter().map(|(_, _, number)| *number).collect();
+        let mut ends = self.recorder.states().to_vec();
+        let mut deliveries = Vec::new();
+        for (replica, end) in ends.iter_mut().enumerate() {
+            for &message in &broadcasts {
+                let after = semantics.join(end, &self.recorder.messages()[message]);
+                if after != *end {
+                    deliveries.push(course::Event::Deliver { replica, message });
+                    let broken =
+                        semantics.judge_delivery(end, &after).is_err() || semantics.judge(&after).is_err();
+                    *end = after;
+                    if broken {
+                        return deliveries.iter().try_for_each(|event| self.recorder.record(event));
+                    }
                 }
-            };
-            (replica, act, received(schedules, before, replica, delta))
+            }
         }
-        Event::Restart { replica, keeps } => {
-            let after = if keeps { before.states[replica] } else { schedules.initial() };
-            (replica, Act::Restart, after)
+        if ends.iter().any(|end| *end != ends[0]) {
+            return deliveries.iter().try_for_each(|event| self.recorder.record(event));
         }
-        Event::Lose { .. } | Event::Resynchronise { .. } => return None,
-    };
-    let state = |id: StateId| schedules.tables.state(id);
-    let changes = schedules.semantics.changes(&state(before.states[replica]), &state(after));
-    Some(TraceStep { replica: name(replica), act, changes })
-}
-
-fn mutate_act<S: Semantics>(
-    schedules: &Schedules<S>,
-    before: &Schedule,
-    replica: usize,
-    delta: DeltaId,
-    message: String,
-) -> Act {
-    let identity = replica + INCARNATION * usize::from(before.incarnations[replica]);
-    let state = schedules.tables.state(before.states[replica]);
-    let mutation = schedules.semantics.mutation_of(&state, identity, &schedules.tables.delta(delta));
-    Act::Mutate {
-        message,
-        text: mutation.as_ref().map(ToString::to_string).unwrap_or_default(),
-        mutation: mutation.map(|mutation| schedules.semantics.mutation_json(&mutation)).unwrap_or_default(),
-        delta: schedules.semantics.delta_json(&schedules.tables.delta(delta)),
+        let asks = (1..ends.len()).map(|replica| (replica, 0));
+        let tells = (1..ends.len()).map(|replica| (0, replica));
+        for (replica, to) in asks.chain(tells) {
+            let message = self.recorder.messages().len();
+            self.recorder.record(&course::Event::Answer { replica, to })?;
+            self.recorder.record(&course::Event::Deliver { replica: to, message })?;
+        }
+        Ok(())
     }
-}
-
-fn received<S: Semantics>(
-    schedules: &mut Schedules<S>,
-    before: &Schedule,
-    replica: usize,
-    delta: DeltaId,
-) -> StateId {
-    schedules.tables.join(&schedules.semantics, before.states[replica], delta)
-}
-
-fn name(replica: usize) -> String {
-    format!("r{}", replica + 1)
 }

@@ -1,10 +1,9 @@
 //! Reading a trace back.
 
-use super::{TRACE_VERSION, Trace};
+use super::{FORMAT, TRACE_VERSION, Trace, senders};
+use crate::graph::ChangeError;
 use serde_json::Value;
-
-/// The name of the format.
-const FORMAT: &str = "dsr-trace";
+use std::collections::BTreeSet;
 
 /// Why a text is no trace. Lines and columns count from 1.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
@@ -44,6 +43,63 @@ pub enum TraceError {
         /// What is wrong.
         what: String,
     },
+    /// It has the form, and cannot be.
+    #[error(transparent)]
+    Unsound(#[from] Unsound),
+}
+
+/// Why a trace cannot be. Steps count from 1. `[spec: TRACE-3]`
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum Unsound {
+    /// There is nobody in it.
+    #[error("the trace names no replicas")]
+    NoReplicas,
+    /// A name stands for two replicas.
+    #[error("two replicas are named {name:?}")]
+    TwoReplicas {
+        /// The name.
+        name: String,
+    },
+    /// A step of, or an answer to, nobody.
+    #[error("step {step} names the replica {replica:?}, which the trace does not list")]
+    Replica {
+        /// Which step.
+        step: usize,
+        /// The name.
+        replica: String,
+    },
+    /// The finding names somebody else.
+    #[error("the finding names the replica {replica:?}, which the trace does not list")]
+    FoundAt {
+        /// The name.
+        replica: String,
+    },
+    /// A delivery from nowhere.
+    #[error("step {step} speaks of the message {message:?}, which no step before it sends")]
+    Message {
+        /// Which step.
+        step: usize,
+        /// The message.
+        message: String,
+    },
+    /// A message that could come from either of two steps.
+    #[error("step {second} sends the message {message:?}, which step {first} has sent already")]
+    SentTwice {
+        /// The message.
+        message: String,
+        /// The first of the steps.
+        first: usize,
+        /// The second.
+        second: usize,
+    },
+    /// A change of what was not so.
+    #[error("step {step}: {why}")]
+    Change {
+        /// Which step.
+        step: usize,
+        /// What.
+        why: ChangeError,
+    },
 }
 
 impl Trace {
@@ -66,10 +122,40 @@ impl Trace {
                 });
             }
         }
-        serde_json::from_str(text).map_err(|error| {
+        let trace: Self = serde_json::from_str(text).map_err(|error| {
             let (line, column, what) = place(&error);
             TraceError::Form { line, column, what }
-        })
+        })?;
+        trace.check()?;
+        Ok(trace)
+    }
+
+    /// Whether all names and changes fit together. `[spec: TRACE-3]`
+    pub fn check(&self) -> Result<(), Unsound> {
+        if self.replicas.is_empty() {
+            return Err(Unsound::NoReplicas);
+        }
+        let mut names = BTreeSet::new();
+        for replica in &self.replicas {
+            if !names.insert(&replica.name) {
+                return Err(Unsound::TwoReplicas { name: replica.name.clone() });
+            }
+        }
+        let senders = senders(&self.steps)?;
+        for (at, step) in self.steps.iter().enumerate() {
+            if let super::Act::Answer { to, .. } = &step.does {
+                self.position(at, to)?;
+            }
+            if let Some(message) = step.does.message()
+                && senders.get(message).is_none_or(|&sender| sender >= at)
+            {
+                return Err(Unsound::Message { step: at + 1, message: message.into() });
+            }
+        }
+        if let Some(replica) = self.finding.replicas.iter().find(|replica| !names.contains(replica)) {
+            return Err(Unsound::FoundAt { replica: replica.clone() });
+        }
+        self.graphs().map(|_| ())
     }
 }
 

@@ -1,16 +1,16 @@
 //! Drawings: one self-contained SVG, without scripts and without fonts from elsewhere.
 //!
 //! Replicas are lines from top to bottom, steps are shapes on them, and arrows lead from the step that sent a
-//! message to the step that received it; the titles of arrows have their words in full. The answer of a resynchronisation is a dashed arrow at the height of
-//! its arrival, since a trace does not tell when it was sent. Shapes carry the meaning, colours repeat it; both
+//! message to the step that received it; the titles of arrows have their words in full. An answer is dashed, what is lost ends in a cross. Shapes carry the meaning, colours repeat it; both
 //! follow the reader's light or dark scheme. What changes in a view is written beside a step and is its title.
 
 mod shapes;
 mod style;
 
-use super::diagram::{Diagram, Event, Row};
+use super::diagram::{Arrow, Diagram, Event, Row};
 use super::words::{add, one_line, wrap};
-use shapes::{cross, cut, escape, shape, text};
+use crate::trace::FindingKind;
+use shapes::{cut, escape, shape, text, verdict};
 use style::STYLE;
 
 /// The height of a line of text, in pixels, as all that follow.
@@ -48,7 +48,7 @@ pub(super) fn svg(diagram: &Diagram<'_>) -> String {
     for row in 0..diagram.rows.len() {
         svg += &page.step(row);
     }
-    svg += &page.breach();
+    svg += &page.finding();
     svg += &page.legend();
     svg + "</svg>\n"
 }
@@ -73,7 +73,7 @@ impl<'d> Page<'d> {
         });
         let mut bottom = TOP;
         let mut rows = Vec::new();
-        for lines in texts.chain([wrap(&diagram.breach(), TEXT_WIDTH, 4)]) {
+        for lines in texts.chain([wrap(&diagram.finding(), TEXT_WIDTH, 4)]) {
             let top = bottom;
             bottom += lines.len() * LINE + 16;
             rows.push((top, lines));
@@ -121,11 +121,14 @@ impl<'d> Page<'d> {
     fn arrow(&self, at: usize) -> String {
         let row = &self.diagram.rows[at];
         let (from, start_y, label, class) = match row.event {
-            Event::Delivery { message, sent, from } => (from, self.y(sent), message, "arrow"),
-            Event::Resynchronisation { from } => (from, self.y(at), "", "arrow dashed"),
-            Event::Mutation { .. } | Event::Restart => return String::new(),
+            Event::Delivery(Arrow { message, sent, from, is_answer }) => {
+                (from, self.y(sent), message, if is_answer { "arrow dashed" } else { "arrow" })
+            }
+            Event::Loss(Arrow { message, sent, from, .. }) => (from, self.y(sent), message, "arrow lost"),
+            _ => return String::new(),
         };
         let (path, label_x, label_y) = self.path((from, start_y), (row.lane, self.y(at)));
+        let tip = if matches!(row.event, Event::Loss(_)) { "" } else { " marker-end=\"url(#tip)\"" };
         let words = format!("step {}: {}", at + 1, self.diagram.words(row));
         let label = escape(&cut(label, self.pitch / LETTER - 4));
         // First wide in the colour of the ground, so that nothing runs through the letters.
@@ -133,7 +136,7 @@ impl<'d> Page<'d> {
             format!("<text class=\"{class}\" x=\"{label_x}\" y=\"{label_y}\" text-anchor=\"middle\">{label}</text>")
         });
         format!(
-            "<g><title>{}</title><path class=\"{class}\" d=\"{path}\" marker-end=\"url(#tip)\"/>{}</g>\n",
+            "<g><title>{}</title><path class=\"{class}\" d=\"{path}\"{tip}/>{}</g>\n",
             escape(&words),
             if label.is_empty() { String::new() } else { labels.concat() }
         )
@@ -179,10 +182,14 @@ impl<'d> Page<'d> {
         lines.map(|line| one_line(&line)).collect::<Vec<_>>().join("\n")
     }
 
-    fn breach(&self) -> String {
+    fn finding(&self) -> String {
         let at = self.diagram.rows.len();
-        let (x, y) = (self.x(self.diagram.breaking_lane()), self.y(at));
-        let mut svg = format!("<g><title>{}</title>{}", escape(&self.diagram.breach()), cross(x, y));
+        let (x, y) = (self.x(self.diagram.last_lane()), self.y(at));
+        let mut svg = format!(
+            "<g><title>{}</title>{}",
+            escape(&self.diagram.finding()),
+            verdict(self.diagram.trace.finding.kind, x, y)
+        );
         for (line, words) in self.rows[at].1.iter().enumerate() {
             svg += &text(self.text_x(), y + 5 + line * LINE, "breach", words);
         }
@@ -191,11 +198,14 @@ impl<'d> Page<'d> {
 
     fn legend(&self) -> String {
         let y = self.bottom + 24;
+        let arrow = Arrow { message: "", sent: 0, from: 0, is_answer: false };
         let entries = [
-            (Event::Mutation { message: "", text: "" }, "mutates"),
-            (Event::Delivery { message: "", sent: 0, from: 0 }, "receives"),
-            (Event::Restart, "restarts"),
-            (Event::Resynchronisation { from: 0 }, "resynchronises"),
+            (Event::Mutation { text: "", sends: &[] }, "mutates"),
+            (Event::Delivery(arrow), "receives"),
+            (Event::Loss(arrow), "never receives"),
+            (Event::Restart { keeps: false }, "restarts"),
+            (Event::Answer { to: 0, sends: &[] }, "answers"),
+            (Event::Other { text: "" }, "else"),
         ];
         let mut svg = String::new();
         let mut x = 24;
@@ -204,6 +214,6 @@ impl<'d> Page<'d> {
             svg += &text(x + 14, y + 5, "small", words);
             x += 44 + words.len() * LETTER;
         }
-        svg + &cross(x, y) + &text(x + 16, y + 5, "small", "a clause breaks") + "\n"
+        svg + &verdict(FindingKind::Broken, x, y) + &text(x + 16, y + 5, "small", "a clause breaks") + "\n"
     }
 }

@@ -3,8 +3,9 @@
 use super::LETTER;
 use crate::render::diagram::Event;
 use crate::render::words::one_line;
+use crate::trace::FindingKind;
 
-/// A full circle, a full diamond, a hollow square or a hollow diamond.
+/// A full or hollow circle, a full or hollow diamond, a small cross or a hollow square.
 pub(super) fn shape(event: &Event<'_>, x: usize, y: usize) -> String {
     let diamond = |class: &str| {
         let (left, right, top, bottom) = (x - 9, x + 9, y - 9, y + 9);
@@ -12,17 +13,32 @@ pub(super) fn shape(event: &Event<'_>, x: usize, y: usize) -> String {
     };
     match event {
         Event::Mutation { .. } => format!("<circle class=\"full\" cx=\"{x}\" cy=\"{y}\" r=\"7\"/>"),
-        Event::Delivery { .. } => diamond("full"),
-        Event::Resynchronisation { .. } => diamond("hollow"),
-        Event::Restart => {
+        Event::Other { .. } => format!("<circle class=\"hollow\" cx=\"{x}\" cy=\"{y}\" r=\"7\"/>"),
+        Event::Delivery(_) => diamond("full"),
+        Event::Answer { .. } => diamond("hollow"),
+        Event::Loss(_) => crossed("lost-mark", x, y, 5),
+        Event::Restart { .. } => {
             format!("<rect class=\"hollow\" x=\"{}\" y=\"{}\" width=\"14\" height=\"14\"/>", x - 7, y - 7)
         }
     }
 }
 
-pub(super) fn cross(x: usize, y: usize) -> String {
-    let (left, right, top, bottom) = (x - 7, x + 7, y - 7, y + 7);
-    format!("<path class=\"cross\" d=\"M{left} {top}L{right} {bottom}M{right} {top}L{left} {bottom}\"/>")
+/// The sign of what is found: a cross, an eye or a tick.
+pub(super) fn verdict(kind: FindingKind, x: usize, y: usize) -> String {
+    match kind {
+        FindingKind::Broken => crossed("cross", x, y, 7),
+        FindingKind::Seen => format!(
+            "<circle class=\"sight\" cx=\"{x}\" cy=\"{y}\" r=\"8\"/><circle class=\"full\" cx=\"{x}\" cy=\"{y}\" r=\"3\"/>"
+        ),
+        FindingKind::Holds => {
+            format!("<path class=\"sight\" d=\"M{} {y}L{} {}L{} {}\"/>", x - 8, x - 2, y + 7, x + 8, y - 7)
+        }
+    }
+}
+
+fn crossed(class: &str, x: usize, y: usize, arm: usize) -> String {
+    let (left, right, top, bottom) = (x - arm, x + arm, y - arm, y + arm);
+    format!("<path class=\"{class}\" d=\"M{left} {top}L{right} {bottom}M{right} {top}L{left} {bottom}\"/>")
 }
 
 /// A text of at most `most` characters.
