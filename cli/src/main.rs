@@ -5,6 +5,7 @@ mod check;
 mod gallery;
 mod input;
 mod output;
+mod replay;
 mod scene;
 mod status;
 mod trace;
@@ -32,6 +33,7 @@ enum Command {
     Alarms(alarms::Arguments),
     Gallery(gallery::Arguments),
     Trace(trace::Arguments),
+    Replay(replay::Arguments),
     /// Checks, shows, converts and compares scenes: graph files of the published system
     #[command(subcommand)]
     Scene(scene::Command),
@@ -44,6 +46,7 @@ impl Command {
             Self::Alarms(arguments) => arguments.run(),
             Self::Gallery(arguments) => arguments.run(),
             Self::Trace(arguments) => arguments.run(),
+            Self::Replay(arguments) => arguments.run(),
             Self::Scene(command) => command.run(),
         }
     }

@@ -62,9 +62,9 @@ impl From<Target> for render::Target {
     }
 }
 
-/// Why nothing is drawn.
+/// Why a trace is not read or drawn.
 #[derive(Debug, thiserror::Error)]
-enum Refusal {
+pub(crate) enum Refusal {
     #[error(transparent)]
     Input(#[from] InputError),
     #[error(transparent)]
@@ -74,7 +74,7 @@ enum Refusal {
 }
 
 impl Refusal {
-    fn remedy(&self) -> &'static str {
+    pub(crate) fn remedy(&self) -> &'static str {
         match self {
             Self::Input(InputError::TooLarge { .. }) => "check that it is a trace file",
             Self::Input(error) => error.remedy(),
@@ -119,7 +119,17 @@ impl Arguments {
     }
 
     fn rendered(&self) -> Result<String, Refusal> {
-        let trace = Trace::read(&input::text(&self.file, BYTES_MAX, "trace")?)?;
+        let trace = read(&self.file)?;
         Ok(render::render(&trace, self.to.into())?)
     }
+}
+
+/// Reads a trace that need not fit together.
+pub(crate) fn read_form(file: &str) -> Result<Trace, Refusal> {
+    Ok(Trace::read_form(&input::text(file, BYTES_MAX, "trace")?)?)
+}
+
+/// Reads a trace.
+pub(crate) fn read(file: &str) -> Result<Trace, Refusal> {
+    Ok(Trace::read(&input::text(file, BYTES_MAX, "trace")?)?)
 }

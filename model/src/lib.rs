@@ -12,6 +12,7 @@ pub mod job;
 pub mod progress;
 pub mod published;
 pub mod render;
+pub mod replay;
 pub mod scenario;
 pub mod schedules;
 pub mod search;

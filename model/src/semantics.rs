@@ -206,6 +206,12 @@ pub trait Semantics: Debug + Send + Sync + 'static {
         serde_json::Value::Null
     }
 
+    /// The state of a JSON form, if the semantics can read it.
+    fn state_from_json(&self, json: &serde_json::Value) -> Option<Self::State> {
+        let _ = json;
+        None
+    }
+
     /// The mutation of a JSON form, whether or not it can be made; by default one that
     /// [`mutations`](Self::mutations) lists for the state.
     fn mutation_from_json(

@@ -237,6 +237,10 @@ impl Semantics for Broken {
         self.core.setup_json()
     }
 
+    fn state_from_json(&self, json: &serde_json::Value) -> Option<State> {
+        self.core.state_from_json(json)
+    }
+
     fn mutation_from_json(&self, state: &State, replica: usize, json: &serde_json::Value) -> Option<Act> {
         self.core.mutation_from_json(state, replica, json)
     }

@@ -22,6 +22,7 @@ pub use run::{Finding, LayerReport, run_alarm, run_sound};
 pub use shown::Shown;
 pub use subject::{A, B, subject};
 
+use crate::checked::Checked;
 use dsr_core::{MutationKind, VertexId};
 use std::sync::Arc;
 
@@ -38,9 +39,14 @@ pub struct Alarm {
 }
 
 impl Alarm {
+    /// The core broken so.
+    pub fn on(&self, core: Checked) -> Broken {
+        Broken::new(self.name, core, self.flaw.clone())
+    }
+
     /// The broken core with some kinds of mutation on some vertices of [`subject`].
     pub fn core(&self, kinds: &[MutationKind], focus: &[VertexId]) -> Broken {
-        Broken::new(self.name, subject(kinds, focus), self.flaw.clone())
+        self.on(subject(kinds, focus))
     }
 }
 

@@ -301,6 +301,10 @@ impl Semantics for Checked {
         serde_json::json!({ "dictionary": self.dictionary, "initial": self.initial })
     }
 
+    fn state_from_json(&self, json: &serde_json::Value) -> Option<State> {
+        serde_json::from_value(json.clone()).ok()
+    }
+
     fn mutation_from_json(&self, _: &State, _: usize, json: &serde_json::Value) -> Option<Act> {
         serde_json::from_value(json.clone()).ok().map(Act)
     }

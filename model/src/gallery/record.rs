@@ -65,6 +65,11 @@ impl PublishedRun {
         true
     }
 
+    /// What was written down so far.
+    pub const fn scribe(&self) -> &Scribe {
+        &self.scribe
+    }
+
     /// What is broken now.
     pub fn judge(&mut self) -> Result<(), Breach> {
         self.network.judge(&self.at)
@@ -93,9 +98,9 @@ impl PublishedRun {
 impl Setup {
     /// What a replica is called in traces.
     pub fn name(&self, replica: usize) -> String {
-        self.agents
-            .get(replica)
-            .map_or_else(|| format!("replica {replica}"), |agent| format!("agent {agent}"))
+        let Some(agent) = self.agents.get(replica) else { return format!("replica {}", replica + 1) };
+        let is_taken = self.agents[..replica].contains(agent);
+        if is_taken { format!("another agent {agent}") } else { format!("agent {agent}") }
     }
 }
 

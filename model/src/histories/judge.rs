@@ -11,6 +11,7 @@
 use super::known::{Entry, Known, Unlike};
 use super::shapes::Grain;
 use super::{FoundFault, Histories, History, SAMPLE, TRIED_FIRST};
+use crate::replay::{ANOTHER_ORDER, NOT_THE_JOIN, TWICE};
 use crate::semantics::{Breach, Judged, Semantics};
 use crate::tables::DeltaId;
 use rustc_hash::FxHashMap;
@@ -68,11 +69,14 @@ pub struct Fault {
     pub delivered: Vec<DeltaId>,
     /// For a diamond: the same deltas in another order, which leads elsewhere.
     pub other_order: Option<Vec<DeltaId>>,
+    /// For a resynchronisation: what had been delivered to the one who is answered.
+    pub answered: Option<Vec<DeltaId>>,
 }
 
 impl Fault {
     pub(super) fn new(breach: Breach, before: &[DeltaId], last: Option<DeltaId>) -> Self {
-        Self { breach, delivered: before.iter().copied().chain(last).collect(), other_order: None }
+        let delivered = before.iter().copied().chain(last).collect();
+        Self { breach, delivered, other_order: None, answered: None }
     }
 }
 
@@ -249,7 +253,7 @@ impl<S: Semantics> Histories<S> {
     fn judge_again(&self, state: &S::State, set: &[DeltaId]) -> Result<(), Fault> {
         for &delta in set {
             if self.semantics.join(state, &self.tables.delta(delta)) != *state {
-                let breach = Breach::new("JOIN-3", "a delta delivered twice is not the same as once");
+                let breach = Breach::new("JOIN-3", TWICE);
                 return Err(Fault::new(breach, set, Some(delta)));
             }
         }
@@ -259,17 +263,19 @@ impl<S: Semantics> Histories<S> {
     /// Resynchronisation brings either side of each pair (a set, the set without one delta) to their join.
     fn judge_repair(&self, whole: &S::State, set: &[DeltaId]) -> Result<(), Fault> {
         for at in 0..set.len() {
-            let (rest, last) = without(set, at);
+            let (rest, _) = without(set, at);
             let part = &self.deliver(&rest);
-            for (ours, theirs) in [(whole, part), (part, whole)] {
+            for ((ours, has), (theirs, had)) in
+                [((whole, set), (part, &*rest)), ((part, &*rest), (whole, set))]
+            {
                 let (Some(delta), Some(joined)) =
                     (self.semantics.repair(ours, theirs), self.semantics.join_states(theirs, ours))
                 else {
                     continue;
                 };
                 if self.semantics.join(theirs, &delta) != joined {
-                    let breach = Breach::new("SYNC-3", "resynchronisation does not lead to the join of both");
-                    return Err(Fault::new(breach, &rest, Some(last)));
+                    let fault = Fault::new(Breach::new("SYNC-3", NOT_THE_JOIN), has, None);
+                    return Err(Fault { answered: Some(had.to_vec()), ..fault });
                 }
             }
         }
@@ -302,8 +308,8 @@ impl<S: Semantics> Histories<S> {
 }
 
 fn diamond(order: Vec<DeltaId>, other: Vec<DeltaId>) -> Fault {
-    let breach = Breach::new("JOIN-3", "the same deltas in another order lead to another state");
-    Fault { breach, delivered: order, other_order: Some(other) }
+    let breach = Breach::new("JOIN-3", ANOTHER_ORDER);
+    Fault { breach, delivered: order, other_order: Some(other), answered: None }
 }
 
 /// What tells sets that are judged so.

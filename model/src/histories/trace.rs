@@ -29,7 +29,8 @@ pub(super) fn write<'h, S: Semantics>(
     let orders = match &found.fault {
         FoundFault::Step(_) => Vec::new(),
         FoundFault::Delivered(fault) => {
-            [fault.delivered.clone()].into_iter().chain(fault.other_order.clone()).collect()
+            let others = fault.other_order.iter().chain(&fault.answered);
+            [&fault.delivered].into_iter().chain(others).cloned().collect()
         }
     };
     let observers = (1..=orders.len()).map(|at| format!("observer {at}"));
@@ -46,12 +47,17 @@ pub(super) fn write<'h, S: Semantics>(
             writer.mutate(fault.replica, &fault.mutation)?;
             vec![fault.replica]
         }
-        FoundFault::Delivered(_) => {
+        FoundFault::Delivered(fault) => {
             let first = bound.replicas;
             for (observer, order) in (first..).zip(&orders) {
                 writer.observe(observer, order)?;
             }
-            (first..first + orders.len()).collect()
+            if fault.answered.is_some() {
+                writer.answer(first, first + 1)?;
+            }
+            // Of a resynchronisation, who was answered shows it.
+            let shows = if fault.answered.is_some() { first + 1 } else { first };
+            (shows..first + orders.len()).collect()
         }
     };
     let shown_by = writer.recorder.scribe().names(at);
@@ -104,6 +110,13 @@ impl<S: Semantics> Writer<'_, S> {
     fn deliver(&mut self, replica: usize, message: usize) -> Result<(), CannotHappen> {
         self.states[replica] = self.histories.join(self.states[replica], self.messages[message]);
         self.recorder.record(&Event::Deliver { replica, message })
+    }
+
+    /// A replica answers another's digest.
+    fn answer(&mut self, replica: usize, to: usize) -> Result<(), CannotHappen> {
+        let message = self.recorder.messages().len();
+        self.recorder.record(&Event::Answer { replica, to })?;
+        self.recorder.record(&Event::Deliver { replica: to, message })
     }
 
     /// A replica that only receives, in the given order.

@@ -145,6 +145,10 @@ impl<S: Semantics> Semantics for Restricted<S> {
         self.whole.setup_json()
     }
 
+    fn state_from_json(&self, json: &serde_json::Value) -> Option<S::State> {
+        self.whole.state_from_json(json)
+    }
+
     fn mutation_from_json(
         &self,
         state: &S::State,

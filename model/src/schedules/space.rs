@@ -2,6 +2,7 @@
 
 use super::state::{Event, Message, NO_ANSWER, Schedule};
 use super::{RESYNCHRONISATIONS_MAX, ScheduleBound};
+use crate::replay::{ALL_DELIVERED, ALL_RESYNCHRONISED};
 use crate::search::Space;
 use crate::semantics::{Breach, Semantics};
 use crate::tables::{DeltaId, StateId, Tables};
@@ -228,7 +229,7 @@ impl<S: Semantics> Schedules<S> {
             ends.push(state);
         }
         if ends.iter().any(|end| *end != ends[0]) {
-            return Err(Breach::new("JOIN-5", "everything is delivered to everybody, and they differ"));
+            return Err(Breach::new("JOIN-5", ALL_DELIVERED));
         }
         self.judge_resynchronised(at)
     }
@@ -244,7 +245,7 @@ impl<S: Semantics> Schedules<S> {
         for replica in 1..everybody {
             let Some(delta) = self.answer(hub, at.states[replica]) else { return Ok(()) };
             if self.join(at.states[replica], delta)? != hub {
-                return Err(Breach::new("SYNC-5", "all have resynchronised, and they differ"));
+                return Err(Breach::new("SYNC-5", ALL_RESYNCHRONISED));
             }
         }
         Ok(())

@@ -15,8 +15,8 @@ pub(super) fn write<S: Semantics>(
     found: &Counterexample<Schedules<S>>,
 ) -> Result<Trace, CannotHappen> {
     let semantics = schedules.semantics.clone();
-    let (everybody, bound) = (schedules.bound.everybody(), schedules.bound);
-    let recorder = Recorder::new(&*semantics, (1..=everybody).map(|at| format!("r{at}")));
+    let bound = schedules.bound;
+    let recorder = Recorder::new(&*semantics, (1..=bound.everybody()).map(|at| format!("r{at}")));
     let mut writer = Writer { schedules, recorder, broadcasts: Vec::new(), answers: Vec::new() };
     // An event that cannot be had without breaking a clause comes last.
     let last = found.fault.event.map(|event| (found.end, event));
@@ -24,12 +24,8 @@ pub(super) fn write<S: Semantics>(
         let event = writer.event(before, event)?;
         writer.recorder.record(&event)?;
     }
-    let at: Vec<usize> = if let Some(event) = &found.fault.event {
-        vec![event.replica()]
-    } else {
-        writer.come_to_rest()?;
-        (0..everybody).collect()
-    };
+    let at: Vec<usize> =
+        if let Some(event) = &found.fault.event { vec![event.replica()] } else { writer.come_to_rest()? };
     let shown_by = writer.recorder.scribe().names(at);
     let finding = Finding::broken(clauses, &found.fault.breach, shown_by);
     let title = format!("{} is broken: {}", finding.clause, finding.what);
@@ -100,8 +96,8 @@ impl<S: Semantics> Writer<'_, S> {
     }
 
     /// Delivers everything to everybody; if that makes all equal, it was resynchronisation that did not, and
-    /// is recorded instead. `[spec: JOIN-5]` `[spec: SYNC-5]`
-    fn come_to_rest(&mut self) -> Result<(), CannotHappen> {
+    /// is recorded instead. Who shows what is broken. `[spec: JOIN-5]` `[spec: SYNC-5]`
+    fn come_to_rest(&mut self) -> Result<Vec<usize>, CannotHappen> {
         let semantics = self.schedules.semantics.clone();
         let broadcasts: Vec<usize> = self.broadcasts.iter().map(|(_, _, number)| *number).collect();
         let mut ends = self.recorder.states().to_vec();
@@ -115,13 +111,17 @@ impl<S: Semantics> Writer<'_, S> {
                         semantics.judge_delivery(end, &after).is_err() || semantics.judge(&after).is_err();
                     *end = after;
                     if broken {
-                        return deliveries.iter().try_for_each(|event| self.recorder.record(event));
+                        let mut own = deliveries.iter().filter(|event| event.replica() == replica);
+                        own.try_for_each(|event| self.recorder.record(event))?;
+                        return Ok(vec![replica]);
                     }
                 }
             }
         }
+        let everybody = (0..ends.len()).collect();
         if ends.iter().any(|end| *end != ends[0]) {
-            return deliveries.iter().try_for_each(|event| self.recorder.record(event));
+            deliveries.iter().try_for_each(|event| self.recorder.record(event))?;
+            return Ok(everybody);
         }
         let asks = (1..ends.len()).map(|replica| (replica, 0));
         let tells = (1..ends.len()).map(|replica| (0, replica));
@@ -130,6 +130,6 @@ impl<S: Semantics> Writer<'_, S> {
             self.recorder.record(&course::Event::Answer { replica, to })?;
             self.recorder.record(&course::Event::Deliver { replica: to, message })?;
         }
-        Ok(())
+        Ok(everybody)
     }
 }

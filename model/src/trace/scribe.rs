@@ -45,9 +45,9 @@ impl Scribe {
         replicas.into_iter().map(|replica| self.name(replica).to_owned()).collect()
     }
 
-    /// How many messages were sent.
-    pub const fn sent(&self) -> usize {
-        self.sent
+    /// Who takes part, with what they start with.
+    pub fn replicas(&self) -> &[TraceReplica] {
+        &self.replicas
     }
 
     /// The next message.

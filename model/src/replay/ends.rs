@@ -1,0 +1,185 @@
+//! What is broken after the last step of a course.
+
+use super::ReplayError;
+use crate::course::Event;
+use crate::semantics::{Breach, Semantics, Step};
+use crate::trace::{Finding, FindingKind, Recorder};
+use std::collections::BTreeSet;
+
+/// The same deltas in another order.
+pub const ANOTHER_ORDER: &str = "the same deltas in another order lead to another state";
+/// The same delta twice.
+pub const TWICE: &str = "a delta delivered twice is not the same as once";
+/// A resynchronisation that does not do what it is for.
+pub const NOT_THE_JOIN: &str = "resynchronisation does not lead to the join of both";
+/// Nothing is under way.
+pub const ALL_DELIVERED: &str = "everything is delivered to everybody, and they differ";
+/// All have resynchronised.
+pub const ALL_RESYNCHRONISED: &str = "all have resynchronised, and they differ";
+
+/// Watches a course, so as to judge its end.
+#[derive(Debug)]
+pub struct Ends<'s, S: Semantics> {
+    semantics: &'s S,
+    /// By replica, what it received or sent.
+    received: Vec<BTreeSet<usize>>,
+    /// What an answer was made from, by message.
+    answers: Vec<(usize, S::State)>,
+    before: Option<S::State>,
+    shown: Vec<Shown>,
+}
+
+/// Something broken, and who shows it.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Shown {
+    /// What is broken.
+    pub breach: Breach,
+    /// By whom, in order.
+    pub by: Vec<usize>,
+}
+
+impl<'s, S: Semantics> Ends<'s, S> {
+    /// Before the first event.
+    pub fn new(semantics: &'s S, replicas: usize) -> Self {
+        let received = vec![BTreeSet::new(); replicas];
+        Self { semantics, received, answers: Vec::new(), before: None, shown: Vec::new() }
+    }
+
+    /// An event is about to happen.
+    pub fn before(&mut self, recorder: &Recorder<'_, S>, event: &Event<S::Mutation>) {
+        self.shown.clear();
+        self.before = recorder.states().get(event.replica()).cloned();
+        if let (Event::Mutate { replica, mutations }, Some(state)) = (event, self.before.clone()) {
+            self.judge_steps(state, *replica, recorder.identity(*replica), mutations);
+        }
+        if let (Event::Answer { .. }, Some(state)) = (event, self.before.clone()) {
+            self.answers.push((recorder.messages().len(), state));
+        }
+    }
+
+    fn judge_steps(
+        &mut self,
+        mut state: S::State,
+        replica: usize,
+        identity: usize,
+        mutations: &[S::Mutation],
+    ) {
+        for mutation in mutations {
+            let Some(step) = self.semantics.mutate(&state, identity, mutation) else { return };
+            let judged = self.semantics.judge_step(&state, identity, mutation, &step);
+            self.shown.extend(judged.err().map(|breach| Shown { breach, by: vec![replica] }));
+            let Step { after, .. } = step;
+            state = after;
+        }
+    }
+
+    /// It has happened.
+    pub fn after(&mut self, recorder: &Recorder<'_, S>, event: &Event<S::Mutation>) {
+        let replica = event.replica();
+        let (Some(before), Some(after)) = (self.before.take(), recorder.states().get(replica)) else {
+            return;
+        };
+        match event {
+            Event::Mutate { .. } => {
+                self.received[replica].insert(recorder.messages().len().saturating_sub(1));
+            }
+            Event::Deliver { message, .. } => {
+                let mut broken: Vec<Breach> =
+                    self.semantics.judge_delivery(&before, after).err().into_iter().collect();
+                if !self.received[replica].insert(*message) && before != *after {
+                    broken.push(Breach::new("JOIN-3", TWICE));
+                }
+                let made_from = self.answers.iter().find(|(answer, _)| answer == message);
+                let joined = made_from.and_then(|(_, ours)| self.semantics.join_states(&before, ours));
+                if joined.is_some_and(|joined| joined != *after) {
+                    broken.push(Breach::new("SYNC-3", NOT_THE_JOIN));
+                }
+                self.shown.extend(broken.into_iter().map(|breach| Shown { breach, by: vec![replica] }));
+            }
+            Event::Restart { keeps: false, .. } => self.received[replica].clear(),
+            _ => {}
+        }
+    }
+
+    /// Whether what is found is so: `Ok(Err(why))` if that cannot be judged from a course.
+    pub fn judge(
+        &self,
+        recorder: &Recorder<'_, S>,
+        finding: &Finding,
+    ) -> Result<Result<(), &'static str>, ReplayError> {
+        let shown = self.broken(recorder);
+        let told = || {
+            let names = |by: &[usize]| recorder.scribe().names(by.iter().copied()).join(", ");
+            let lines = shown
+                .iter()
+                .map(|Shown { breach, by }| format!("[{}] {} ({})", breach.clause, breach.detail, names(by)));
+            lines.collect::<Vec<_>>().join("; ")
+        };
+        let differs = |found: String| Err(ReplayError::Finding { expected: finding.to_string(), found });
+        match finding.kind {
+            FindingKind::Seen => Ok(Err("what a scenario has to see is judged by its exploration")),
+            FindingKind::Broken if finding.clause == "CHECK-11" => {
+                Ok(Err("CHECK-11 is a clause of the search, not of the replicas"))
+            }
+            FindingKind::Broken => {
+                let same = |shown: &Shown| {
+                    shown.breach.clause == finding.clause
+                        && shown.breach.detail == finding.detail
+                        && recorder.scribe().names(shown.by.iter().copied()) == finding.replicas
+                };
+                match &shown[..] {
+                    [] => differs("nothing is broken".into()),
+                    shown if shown.iter().any(same) => Ok(Ok(())),
+                    _ => differs(format!("it is {}", told())),
+                }
+            }
+            FindingKind::Holds if !shown.is_empty() => differs(format!("it is {}", told())),
+            FindingKind::Holds if differ(recorder) => differs("the replicas differ".into()),
+            FindingKind::Holds => Ok(Ok(())),
+        }
+    }
+
+    /// All that is broken now.
+    pub fn broken(&self, recorder: &Recorder<'_, S>) -> Vec<Shown> {
+        let states = recorder.states();
+        let everybody = || (0..states.len()).collect::<Vec<usize>>();
+        let mut shown = self.shown.clone();
+        shown.extend(states.iter().enumerate().filter_map(|(replica, state)| {
+            Some(Shown { breach: self.semantics.judge(state).err()?, by: vec![replica] })
+        }));
+        let is_answer = |message: &usize| self.answers.iter().any(|(answer, _)| answer == message);
+        let sent: BTreeSet<usize> =
+            (0..recorder.messages().len()).filter(|message| !is_answer(message)).collect();
+        let has_all = |&replica: &usize| sent.is_subset(&self.received[replica]);
+        for left in 0..states.len() {
+            let alike = |&right: &usize| self.received[left] == self.received[right];
+            let odd = (left + 1..states.len()).filter(alike).filter(|&right| states[left] != states[right]);
+            shown.extend(
+                odd.map(|right| Shown {
+                    breach: Breach::new("JOIN-3", ANOTHER_ORDER),
+                    by: vec![left, right],
+                }),
+            );
+        }
+        if differ(recorder) && everybody().iter().all(has_all) {
+            shown.push(Shown { breach: Breach::new("JOIN-5", ALL_DELIVERED), by: everybody() });
+        }
+        if differ(recorder) && self.all_resynchronised(states.len()) {
+            shown.push(Shown { breach: Breach::new("SYNC-5", ALL_RESYNCHRONISED), by: everybody() });
+        }
+        shown
+    }
+
+    /// Everybody but the first has received an answer, and the first has received one from each of them.
+    fn all_resynchronised(&self, replicas: usize) -> bool {
+        let received = |replica: usize| {
+            self.answers.iter().filter(|(answer, _)| self.received[replica].contains(answer)).count()
+        };
+        replicas > 1 && received(0) + 1 >= replicas && (1..replicas).all(|replica| received(replica) > 0)
+    }
+}
+
+fn differ<S: Semantics>(recorder: &Recorder<'_, S>) -> bool {
+    let states = recorder.states();
+    states.iter().any(|state| *state != states[0])
+}
