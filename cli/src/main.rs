@@ -9,6 +9,7 @@ mod replay;
 mod scene;
 mod status;
 mod trace;
+mod why;
 
 use clap::{Parser, Subcommand};
 use status::Status;
@@ -34,6 +35,7 @@ enum Command {
     Gallery(gallery::Arguments),
     Trace(trace::Arguments),
     Replay(replay::Arguments),
+    Why(why::Arguments),
     /// Checks, shows, converts and compares scenes: graph files of the published system
     #[command(subcommand)]
     Scene(scene::Command),
@@ -47,6 +49,7 @@ impl Command {
             Self::Gallery(arguments) => arguments.run(),
             Self::Trace(arguments) => arguments.run(),
             Self::Replay(arguments) => arguments.run(),
+            Self::Why(arguments) => arguments.run(),
             Self::Scene(command) => command.run(),
         }
     }

@@ -21,3 +21,4 @@ pub mod suite;
 pub mod tables;
 pub mod trace;
 pub mod verdict;
+pub mod why;

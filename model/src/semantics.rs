@@ -4,6 +4,7 @@
 //! lets the semantics itself judge what must hold of one state or one step.
 
 use crate::graph::{Element, Graph};
+use crate::why::{Claim, Fate, Standing, Target};
 use std::fmt::{Debug, Display};
 use std::hash::Hash;
 
@@ -204,6 +205,30 @@ pub trait Semantics: Debug + Send + Sync + 'static {
     /// What it takes to make this semantics again, for traces: its dictionary, what replicas start from.
     fn setup_json(&self) -> serde_json::Value {
         serde_json::Value::Null
+    }
+
+    /// What a delta says about a target, for those who ask why. `[spec: TRACE-7]`
+    fn claims(&self, delta: &Self::Delta, target: &Target) -> Vec<Claim> {
+        let _ = (delta, target);
+        Vec::new()
+    }
+
+    /// What a state holds about a target.
+    fn claims_held(&self, state: &Self::State, target: &Target) -> Vec<Claim> {
+        let _ = (state, target);
+        Vec::new()
+    }
+
+    /// Whether a delta says that a claim is gone.
+    fn ends(&self, delta: &Self::Delta, claim: &Claim) -> bool {
+        let _ = (delta, claim);
+        false
+    }
+
+    /// How a claim stands in a state.
+    fn standing(&self, state: &Self::State, target: &Target, claim: &Claim) -> Standing {
+        let _ = (state, target, claim);
+        Standing { fate: Fate::Unseen, why: "this semantics does not tell".into(), clause: "" }
     }
 
     /// The state of a JSON form, if the semantics can read it.

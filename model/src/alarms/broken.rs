@@ -5,6 +5,7 @@ use crate::algebra::{Algebra, Family, core_universe};
 use crate::checked::{Act, Checked, judge_shown, replica_id};
 use crate::graph::Graph;
 use crate::semantics::{Breach, Clause, Competition, Judged, Semantics, Step};
+use crate::why::{Claim, Standing, Target};
 use dsr_core::{Author, Delta, Mutation, State, View, delta_for, digest, view};
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -231,6 +232,22 @@ impl Semantics for Broken {
 
     fn join_deltas(&self, left: &Delta, right: &Delta) -> Option<Delta> {
         self.core.join_deltas(left, right)
+    }
+
+    fn claims(&self, delta: &Delta, target: &Target) -> Vec<Claim> {
+        self.core.claims(delta, target)
+    }
+
+    fn claims_held(&self, state: &State, target: &Target) -> Vec<Claim> {
+        self.core.claims_held(state, target)
+    }
+
+    fn ends(&self, delta: &Delta, claim: &Claim) -> bool {
+        self.core.ends(delta, claim)
+    }
+
+    fn standing(&self, state: &State, target: &Target, claim: &Claim) -> Standing {
+        self.core.standing(state, target, claim)
     }
 
     fn setup_json(&self) -> serde_json::Value {

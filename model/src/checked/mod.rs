@@ -1,6 +1,7 @@
 //! The checked semantics: `dsr-core` itself, as it ships, behind the checker's trait.
 
 pub mod alphabet;
+mod explain;
 mod intent;
 mod renaming;
 mod timeless;
@@ -8,6 +9,7 @@ mod words;
 
 use crate::graph::Graph;
 use crate::semantics::{Breach, Clause, Competition, Judged, Semantics, Step, WHOLE, Witnesses};
+use crate::why::{Claim, Standing, Target};
 use alphabet::Alphabet;
 use dsr_core::invariant::{Violation, check_repairs, check_view};
 use dsr_core::{
@@ -295,6 +297,22 @@ impl Semantics for Checked {
 
     fn join_deltas(&self, left: &Delta, right: &Delta) -> Option<Delta> {
         Some(left.joined(right))
+    }
+
+    fn claims(&self, delta: &Delta, target: &Target) -> Vec<Claim> {
+        explain::claims(delta, target, &self.dictionary)
+    }
+
+    fn claims_held(&self, state: &State, target: &Target) -> Vec<Claim> {
+        explain::claims(state, target, &self.dictionary)
+    }
+
+    fn ends(&self, delta: &Delta, claim: &Claim) -> bool {
+        explain::ends(delta, claim)
+    }
+
+    fn standing(&self, state: &State, _: &Target, claim: &Claim) -> Standing {
+        explain::standing(state, claim, &self.dictionary)
     }
 
     fn setup_json(&self) -> serde_json::Value {

@@ -23,7 +23,7 @@ mod registers;
 mod run;
 
 pub use checked::{Twin, run_checked};
-pub use record::{PublishedRun, SEMANTICS};
+pub use record::{PublishedRun, SEMANTICS, is_published};
 pub use run::{ControlReport, Found, RowReport, run_control, run_row};
 
 use crate::published::{Guard, Operation, Order, Play, Powers, Property, Setup, Variant, When};

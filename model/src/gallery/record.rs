@@ -2,7 +2,7 @@
 
 use super::Row;
 use super::run::bound;
-use crate::published::{Envelope, Happening, Message, Moment, Network, Setup};
+use crate::published::{Envelope, Happening, Message, Moment, Network, Replica, Setup};
 use crate::search::Space;
 use crate::semantics::Breach;
 use crate::trace::{Act, Finding, FindingKind, Heading, Scribe, Sent, Trace, TraceReplica, TraceStep};
@@ -11,6 +11,11 @@ use std::sync::Arc;
 
 /// The semantics' name in traces.
 pub const SEMANTICS: &str = "published";
+
+/// Whether a trace is of a row of the gallery.
+pub fn is_published(trace: &Trace) -> bool {
+    trace.semantics == SEMANTICS && trace.setup.get("row").is_some()
+}
 
 /// Runs a row's setup and has it written down.
 #[derive(Debug)]
@@ -63,6 +68,16 @@ impl PublishedRun {
         let Some((at, _)) = taken else { return false };
         (self.at, self.scribe) = (at, fork.scribe);
         true
+    }
+
+    /// A replica by position.
+    pub fn replica(&self, replica: usize) -> Arc<Replica> {
+        self.network.at(self.at).swap_remove(replica)
+    }
+
+    /// What was sent so far, in the order of its names.
+    pub fn messages(&self) -> impl Iterator<Item = &Message> {
+        self.names.iter().map(|(_, message, _)| &**message)
     }
 
     /// What was written down so far.

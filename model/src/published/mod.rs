@@ -13,10 +13,11 @@
 //! | `remote`, `remote_edges`, `snapshot` | what a replica does with what arrives |
 //! | `setup`, `world`, `tables`, `space`, `machines` | several replicas and their network, as a space to search |
 //! | `property` | what may break |
-//! | `show`, `picture`, `json` | events in words, and replay; what a replica shows; all of it, for traces |
+//! | `show`, `picture`, `json`, `explain` | events in words; for traces, what a replica shows, all of it, and why |
 
 mod buffers;
 mod context;
+mod explain;
 mod graph;
 mod json;
 mod local;

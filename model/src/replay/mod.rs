@@ -15,6 +15,8 @@ mod steps;
 
 pub use difference::Difference;
 pub use ends::{ALL_DELIVERED, ALL_RESYNCHRONISED, ANOTHER_ORDER, Ends, NOT_THE_JOIN, Shown, TWICE};
+pub(crate) use published::PublishedReplay;
+pub(crate) use steps::Replay;
 pub use steps::replay_with;
 
 use crate::alarms;
@@ -102,7 +104,7 @@ pub struct Replayed {
 pub fn replay(trace: &Trace) -> Result<Replayed, ReplayError> {
     trace.check_names()?;
     let name = &*trace.semantics;
-    if name == gallery::SEMANTICS && trace.setup.get("row").is_some() {
+    if gallery::is_published(trace) {
         return published::replay(trace);
     }
     if name == "checked" {

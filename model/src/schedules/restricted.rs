@@ -2,6 +2,7 @@
 
 use crate::graph::Graph;
 use crate::semantics::{Breach, Clause, Competition, Judged, Semantics, Step};
+use crate::why::{Claim, Standing, Target};
 use std::sync::Arc;
 
 /// Another semantics in which replicas try only the given mutations.
@@ -139,6 +140,22 @@ impl<S: Semantics> Semantics for Restricted<S> {
 
     fn join_deltas(&self, left: &S::Delta, right: &S::Delta) -> Option<S::Delta> {
         self.whole.join_deltas(left, right)
+    }
+
+    fn claims(&self, delta: &S::Delta, target: &Target) -> Vec<Claim> {
+        self.whole.claims(delta, target)
+    }
+
+    fn claims_held(&self, state: &S::State, target: &Target) -> Vec<Claim> {
+        self.whole.claims_held(state, target)
+    }
+
+    fn ends(&self, delta: &S::Delta, claim: &Claim) -> bool {
+        self.whole.ends(delta, claim)
+    }
+
+    fn standing(&self, state: &S::State, target: &Target, claim: &Claim) -> Standing {
+        self.whole.standing(state, target, claim)
     }
 
     fn setup_json(&self) -> serde_json::Value {
