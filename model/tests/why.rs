@@ -1,10 +1,6 @@
 //! What is explained is what is shown.
 
-#![expect(
-    clippy::expect_used,
-    clippy::panic,
-    reason = "helpers of tests: what they expect is what they test"
-)]
+#![expect(clippy::expect_used, reason = "helpers of tests: what they expect is what they test")]
 
 use dsr_core::MutationKind;
 use dsr_model::alarms::{self, A, B};

@@ -100,22 +100,21 @@ pub fn why_with<S: Semantics>(
         let delta = run.recorder.messages().get(message);
         delta.is_some_and(|delta| semantics.ends(delta, claim))
     };
-    let standing = |claim: &Claim| semantics.standing(state, &target, claim);
-    tell(trace, step, replica, &target, Evidence { held, messages, ends: &ends, standing: &standing })
+    let standing = |claim: &Claim| semantics.standing(state, target, claim);
+    tell(trace, step, replica, target, Evidence { held, messages, ends: &ends, standing: &standing })
 }
 
 fn of_gallery(trace: &Trace, step: usize, replica: usize, target: &Target) -> Result<Why, WhyError> {
     let mut run = replay::PublishedReplay::start(trace)?;
-    let mut held = vec![run.replica(replica).claims_held(&target)];
+    let mut held = vec![run.replica(replica).claims_held(target)];
     for _ in 0..step {
         run.step()?;
-        held.push(run.replica(replica).claims_held(&target));
+        held.push(run.replica(replica).claims_held(target));
     }
-    let messages: Vec<Vec<Claim>> = run.messages().map(|message| message.claims(&target)).collect();
+    let messages: Vec<Vec<Claim>> = run.messages().map(|message| message.claims(target)).collect();
     let sent: Vec<_> = run.messages().collect();
-    let ends =
-        |message: usize, claim: &Claim| sent.get(message).is_some_and(|sent| sent.ends(&target, claim));
+    let ends = |message: usize, claim: &Claim| sent.get(message).is_some_and(|sent| sent.ends(target, claim));
     let holder = run.replica(replica);
-    let standing = |claim: &Claim| holder.standing(&target, claim);
-    tell(trace, step, replica, &target, Evidence { held, messages, ends: &ends, standing: &standing })
+    let standing = |claim: &Claim| holder.standing(target, claim);
+    tell(trace, step, replica, target, Evidence { held, messages, ends: &ends, standing: &standing })
 }
