@@ -207,3 +207,15 @@ fn canary_a_spoiled_trace_is_noticed() {
         }
     }
 }
+
+/// `[spec: TRACE-3]`
+#[test]
+fn regress_two_agents_with_one_number_have_names_of_their_own() {
+    for row in rows() {
+        let report = run_row(&row);
+        let traces = report.trace.into_iter().chain(report.checked.map(|twin| twin.trace));
+        for trace in traces {
+            assert_eq!(trace.check(), Ok(()), "row {}", row.row);
+        }
+    }
+}
