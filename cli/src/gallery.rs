@@ -2,7 +2,9 @@
 
 use crate::check::Format;
 use crate::output::{add, err, out};
+use crate::page;
 use crate::status::Status;
+use dsr_explorer::{Content, Origin, Shown, Side};
 use dsr_model::gallery::{Found, RowReport, rows, run_row};
 use dsr_model::render::{Target, render};
 use dsr_model::trace::Trace;
@@ -26,6 +28,9 @@ pub(crate) struct Arguments {
     /// A folder for the traces: of each row one of the published system and one of the checked semantics
     #[arg(long, value_name = "FOLDER")]
     traces: Option<PathBuf>,
+    /// A page for a browser that shows the rows and steps through both runs of each
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
     /// How the result is printed
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -49,10 +54,16 @@ impl Arguments {
             ));
             return Status::Usage;
         }
+        let all = json!({ "rows": reports.iter().map(row_json).collect::<Vec<_>>() });
+        if let Some(path) = &self.report
+            && let Err(refusal) = page::write(path, &content(&reports, &all))
+        {
+            err(refusal);
+            return Status::Usage;
+        }
         match self.format {
             Format::Text => out(&text(&reports, self.row.is_some())),
             Format::Json => {
-                let all = json!({ "rows": reports.iter().map(row_json).collect::<Vec<_>>() });
                 out(&format!("{}\n", serde_json::to_string_pretty(&all).unwrap_or_default()));
             }
         }
@@ -113,6 +124,21 @@ fn traces(report: &RowReport) -> impl Iterator<Item = (String, &Trace)> {
     let published = report.trace.iter().map(|trace| (format!("row-{}", report.row), trace));
     let checked = report.checked.iter();
     published.chain(checked.map(|twin| (format!("row-{}.checked", report.row), &twin.trace)))
+}
+
+/// What the page shows.
+fn content(reports: &[RowReport], rows: &Value) -> Content {
+    let shown = |report: &RowReport, side, trace: &Trace| {
+        let origin = Origin::Row { row: report.row.into(), side };
+        Shown { trace: trace.clone(), origin }
+    };
+    let traces = reports.iter().flat_map(|report| {
+        let published = report.trace.iter().map(|trace| shown(report, Side::Published, trace));
+        let checked = report.checked.iter().map(|twin| shown(report, Side::Checked, &twin.trace));
+        published.chain(checked).collect::<Vec<_>>()
+    });
+    let title = "Anomalies of the published semantics".into();
+    Content { title, report: None, gallery: Some(rows.clone()), traces: traces.collect() }
 }
 
 fn write_traces(folder: &Path, report: &RowReport) -> std::io::Result<()> {

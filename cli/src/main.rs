@@ -5,6 +5,7 @@ mod check;
 mod gallery;
 mod input;
 mod output;
+mod page;
 mod replay;
 mod scene;
 mod status;

@@ -3,6 +3,7 @@
 use crate::input::{self, InputError};
 use crate::output::{err, out};
 use crate::status::Status;
+use dsr_explorer::{Content, Origin, PageError, Shown};
 use dsr_model::render::{self, RenderError};
 use dsr_model::trace::{Trace, TraceError};
 use std::path::PathBuf;
@@ -14,7 +15,8 @@ that arrives, and what breaks at the end.";
 
 const AFTER: &str = r"Examples:
   dsr trace dsr-traces/01-JOIN-3.trace.json                               in the terminal
-  dsr trace dsr-traces/01-JOIN-3.trace.json --to svg --output join-3.svg  for a browser
+  dsr trace dsr-traces/01-JOIN-3.trace.json --to svg --output join-3.svg  a drawing
+  dsr trace dsr-traces/01-JOIN-3.trace.json --to html --output join-3.html  step by step, in a browser
 
 For ShiViz (https://bestchai.bitbucket.io/shiviz/), paste the log and this regular expression:
   (?<event>.*)\n(?<host>\S*) (?<clock>\{.*\})
@@ -47,19 +49,28 @@ enum Target {
     Mermaid,
     /// A drawing for a browser
     Svg,
+    /// A page for a browser that steps through the trace
+    Html,
     #[value(help = "A log with vector clocks for ShiViz")]
     Shiviz,
 }
 
-impl From<Target> for render::Target {
-    fn from(target: Target) -> Self {
-        match target {
-            Target::Text => Self::Text,
-            Target::Mermaid => Self::Mermaid,
-            Target::Svg => Self::Svg,
-            Target::Shiviz => Self::Shiviz,
-        }
+impl Target {
+    fn of(self, trace: Trace) -> Result<String, Refusal> {
+        let target = match self {
+            Self::Html => return Ok(dsr_explorer::page(&alone(trace))?),
+            Self::Text => render::Target::Text,
+            Self::Mermaid => render::Target::Mermaid,
+            Self::Svg => render::Target::Svg,
+            Self::Shiviz => render::Target::Shiviz,
+        };
+        Ok(render::render(&trace, target)?)
     }
+}
+
+fn alone(trace: Trace) -> Content {
+    let title = trace.title.clone();
+    Content { title, report: None, gallery: None, traces: vec![Shown { trace, origin: Origin::Alone }] }
 }
 
 /// Why a trace is not read or drawn.
@@ -71,6 +82,8 @@ pub(crate) enum Refusal {
     Trace(#[from] TraceError),
     #[error(transparent)]
     Render(#[from] RenderError),
+    #[error(transparent)]
+    Page(#[from] PageError),
 }
 
 impl Refusal {
@@ -88,7 +101,9 @@ impl Refusal {
                 "use the version of dsr that wrote the file, or run `dsr check` again"
             }
             Self::Render(RenderError::TooWide { .. }) => "use --to svg",
-            Self::Trace(TraceError::Form { .. } | TraceError::Unsound(_)) | Self::Render(_) => {
+            Self::Trace(TraceError::Form { .. } | TraceError::Unsound(_))
+            | Self::Render(_)
+            | Self::Page(_) => {
                 "correct the file (TRACE-1 in spec/trace.md has the form), or run `dsr check` again"
             }
         }
@@ -119,8 +134,7 @@ impl Arguments {
     }
 
     fn rendered(&self) -> Result<String, Refusal> {
-        let trace = read(&self.file)?;
-        Ok(render::render(&trace, self.to.into())?)
+        self.to.of(read(&self.file)?)
     }
 }
 

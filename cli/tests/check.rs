@@ -47,6 +47,21 @@ fn a_scene_is_checked_exhaustively() {
     );
 }
 
+/// `[spec: TRACE-5]`
+#[test]
+fn a_result_has_a_page_also_where_all_holds() {
+    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("result.html");
+    let name = path.to_str().expect("a path in UTF-8");
+    let output = dsr(&["check", "@tiny", "--focus", "robot,cup", "--report", name]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let page = std::fs::read_to_string(&path).expect("it was written");
+    assert!(page.contains("\"verdict\":\"exhaustive\"") && page.contains("\"assumed\":["));
+    refused(
+        &["check", "@tiny", "--focus", "robot,cup", "--report", "/no/such/folder/result.html"],
+        &["cannot write", "remedy: "],
+    );
+}
+
 #[test]
 fn a_scenario_is_explored() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../model/data/scenarios/two-parents.json");

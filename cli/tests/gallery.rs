@@ -36,3 +36,19 @@ fn one_row_comes_with_its_schedule() {
 fn a_row_that_is_none_is_wrong_usage() {
     assert_eq!(dsr(&["gallery", "--row", "99"]).status.code(), Some(3));
 }
+
+/// `[spec: TRACE-5]`
+#[test]
+fn a_row_has_a_page_with_both_runs() {
+    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("row.html");
+    let output = dsr(&["gallery", "--row", "22", "--report", path.to_str().expect("a path in UTF-8")]);
+    assert_eq!(output.status.code(), Some(0));
+    let page = std::fs::read_to_string(&path).expect("it was written");
+    assert!(page.len() < 300_000, "{}", page.len());
+    for piece in ["\"row\":\"22\"", "\"side\":\"published\"", "\"side\":\"checked\"", "INV-3"] {
+        assert!(page.contains(piece), "{piece}");
+    }
+    let nowhere = dsr(&["gallery", "--row", "22", "--report", "/no/such/folder/row.html"]);
+    assert_eq!(nowhere.status.code(), Some(3));
+    assert!(String::from_utf8_lossy(&nowhere.stderr).contains("remedy: "));
+}

@@ -66,6 +66,7 @@ fn law_a_counterexample_is_drawn_as_each_target() {
     for (target, start, piece) in [
         ("mermaid", "sequenceDiagram\n", "->>"),
         ("svg", "<svg ", "</svg>\n"),
+        ("html", "<!doctype html>\n", "JOIN-3"),
         ("shiviz", "step 1: ", "observer_2 {\"r1\": 1, \"r2\": 1, \"observer_2\": 2}\n"),
     ] {
         let run = dsr(&["trace", name, "--to", target]);

@@ -1,6 +1,7 @@
 //! `dsr check`: what happens to a graph when several agents edit it at once.
 
 mod live;
+mod page;
 mod plan;
 mod report;
 
@@ -26,6 +27,7 @@ Examples:
   dsr check --layer scenario                         the shipped scenarios only
   dsr check @tiny --focus robot,cup --mutations 1    two replicas on two vertices of a scene
   dsr check my.scenario.json                         a scenario of your own
+  dsr check --report result.html                     a page to look at the result in a browser
   dsr check --deep --seconds-max 1800                as far as it goes in half an hour a run
 
 Verdicts:
@@ -69,6 +71,9 @@ pub(crate) struct Arguments {
     /// Where counterexamples are written; the directory is made when there is one
     #[arg(long, default_value = "dsr-traces")]
     traces: PathBuf,
+    /// A page for a browser that shows the result and steps through its counterexamples
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
     /// Stops a run after this many seconds; its verdict is then `bounded`
     #[arg(long, default_value_t = f64::INFINITY)]
     seconds_max: f64,
@@ -143,12 +148,18 @@ impl Arguments {
         for witness in unseen {
             err(format!("no run of L1 has seen {witness:?}: the suite proves less than it says"));
         }
+        let seconds = started.elapsed().as_secs_f64();
+        let written = self.report.as_ref().map(|path| page::write(path, &runs, verdict, seconds));
         match self.format {
             Format::Json => {
                 let text = serde_json::to_string_pretty(&json!({ "verdict": verdict, "runs": runs }));
                 out(&format!("{}\n", text.unwrap_or_default()));
             }
-            Format::Text => out(&report::text(&runs, verdict, started.elapsed().as_secs_f64())),
+            Format::Text => out(&report::text(&runs, verdict, seconds)),
+        }
+        if let Some(Err(refusal)) = written {
+            err(refusal);
+            return Status::Usage;
         }
         match (traces, verdict) {
             (Err(error), _) => {

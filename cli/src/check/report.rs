@@ -5,7 +5,7 @@ use dsr_model::verdict::{PropertyKind, RunReport, Verdict};
 use std::collections::BTreeMap;
 
 /// What every run takes for granted; see `spec/network.md`.
-const ASSUMED: [&str; 5] = [
+pub(super) const ASSUMED: [&str; 5] = [
     "replicas start from the same graph and use the same dictionary",
     "authors follow the specification: no dot is used twice, nobody forges deltas",
     "deltas arrive whole; they may be lost, repeated and reordered without limit",
@@ -14,7 +14,7 @@ const ASSUMED: [&str; 5] = [
 ];
 
 /// What no run shows.
-const NOT_CHECKED: [&str; 5] = [
+pub(super) const NOT_CHECKED: [&str; 5] = [
     "anything beyond the bounds above: more replicas, mutations, or elements in focus",
     "values: one value stands for all, since the semantics compares ranks and never looks into values",
     "duplicate delivery and resynchronisation in L1 beyond sets of two deltas (L0 and L2 judge them in general)",
