@@ -15,7 +15,10 @@ pub mod scenario;
 pub mod schedules;
 pub mod search;
 pub mod semantics;
+pub mod shrink;
 pub mod suite;
 pub mod tables;
 pub mod trace;
 pub mod verdict;
+pub mod walks;
+

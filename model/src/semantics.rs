@@ -71,6 +71,41 @@ pub trait Semantics: Debug + Send + Sync + 'static {
         None
     }
 
+    /// Two deltas as one message: what [`join`](Self::join) makes of both, one after the other. `None` if there
+    /// is no such delta; then a group of mutations carries its deltas one by one.
+    fn join_deltas(&self, left: &Self::Delta, right: &Self::Delta) -> Option<Self::Delta> {
+        let _ = (left, right);
+        None
+    }
+
+    /// The same mutation where what it names has other ids: of each pair in `made`, an earlier mutation that
+    /// made the first delta now makes the second. `None` if it names what nobody has made. `[spec: CHECK-14]`
+    ///
+    /// The default serves a semantics whose mutations name nothing that mutations make.
+    fn readdressed(
+        &self,
+        mutation: &Self::Mutation,
+        made: &[(Self::Delta, Self::Delta)],
+    ) -> Option<Self::Mutation> {
+        let _ = made;
+        Some(mutation.clone())
+    }
+
+    /// Mutations of the same kind that say less, the least first; each must be smaller in some measure of the
+    /// semantics' own, or a search for the least has no end. `[spec: CHECK-14]`
+    fn simpler(&self, mutation: &Self::Mutation) -> Vec<Self::Mutation> {
+        let _ = mutation;
+        Vec::new()
+    }
+
+    /// The same semantics on smaller initial states, the smallest first. `[spec: CHECK-14]`
+    fn simpler_initial(&self) -> Vec<Self>
+    where
+        Self: Sized,
+    {
+        Vec::new()
+    }
+
     /// A delta's stamp, if it makes claims. `[spec: CHECK-11]`
     ///
     /// The default keeps every delta as it is, so nothing is judged for another.

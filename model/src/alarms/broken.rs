@@ -127,6 +127,23 @@ impl Semantics for Broken {
         Some(self.joined(left, right))
     }
 
+    fn join_deltas(&self, left: &Delta, right: &Delta) -> Option<Delta> {
+        Some(self.joined(left, right))
+    }
+
+    fn readdressed(&self, mutation: &Act, made: &[(Delta, Delta)]) -> Option<Act> {
+        self.core.readdressed(mutation, made)
+    }
+
+    fn simpler(&self, mutation: &Act) -> Vec<Act> {
+        self.core.simpler(mutation)
+    }
+
+    fn simpler_initial(&self) -> Vec<Self> {
+        let cores = self.core.simpler_initial().into_iter();
+        cores.map(|core| Self { core, ..self.clone() }).collect()
+    }
+
     /// The predicates of the core on the state, and on what is shown of it, by each of two replicas; equal
     /// states must have equal views on both. `[property: VIEW-1]`
     fn judge(&self, state: &State) -> Result<Judged, Breach> {

@@ -2,7 +2,9 @@
 
 pub mod alphabet;
 mod intent;
+mod readdress;
 mod renaming;
+mod simpler;
 mod timeless;
 
 use crate::semantics::{Breach, Clause, Competition, Judged, Semantics, Step, WHOLE, Witnesses};
@@ -213,6 +215,23 @@ impl Semantics for Checked {
 
     fn join_states(&self, left: &State, right: &State) -> Option<State> {
         Some(left.joined(right))
+    }
+
+    fn join_deltas(&self, left: &Delta, right: &Delta) -> Option<Delta> {
+        Some(left.joined(right))
+    }
+
+    fn readdressed(&self, mutation: &Act, made: &[(Delta, Delta)]) -> Option<Act> {
+        readdress::mutation(&mutation.0, &self.initial, made).map(Act)
+    }
+
+    fn simpler(&self, mutation: &Act) -> Vec<Act> {
+        simpler::mutations(&mutation.0).into_iter().map(Act).collect()
+    }
+
+    fn simpler_initial(&self) -> Vec<Self> {
+        let smaller = simpler::initial(&self.initial, &self.dictionary).into_iter();
+        smaller.map(|initial| Self { initial, ..self.clone() }).collect()
     }
 
     fn stamp(&self, delta: &Delta) -> Option<u64> {

@@ -70,6 +70,23 @@ impl<S: Semantics> Semantics for Restricted<S> {
         self.whole.join_states(left, right)
     }
 
+    fn join_deltas(&self, left: &S::Delta, right: &S::Delta) -> Option<S::Delta> {
+        self.whole.join_deltas(left, right)
+    }
+
+    fn readdressed(&self, mutation: &S::Mutation, made: &[(S::Delta, S::Delta)]) -> Option<S::Mutation> {
+        self.whole.readdressed(mutation, made)
+    }
+
+    fn simpler(&self, mutation: &S::Mutation) -> Vec<S::Mutation> {
+        self.whole.simpler(mutation)
+    }
+
+    fn simpler_initial(&self) -> Vec<Self> {
+        let wholes = self.whole.simpler_initial().into_iter();
+        wholes.map(|whole| Self { whole: Arc::new(whole), mutations: self.mutations.clone() }).collect()
+    }
+
     fn judge(&self, state: &S::State) -> Result<Judged, Breach> {
         self.whole.judge(state)
     }
