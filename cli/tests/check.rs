@@ -91,5 +91,5 @@ fn wrong_usage_and_input_say_what_to_do() {
     refused(&["check", "@tiny", "--replicas", "9"], &["--replicas"]);
     refused(&["check", "--focus", "robot"], &["@flat"]);
     refused(&["check", "@nowhere"], &["@flat or @tiny"]);
-    refused(&["check", "--layer", "L9"], &["l0, l1, l2, scenario"]);
+    refused(&["check", "--layer", "L9"], &["l0, l1, l2, walks, scenario"]);
 }

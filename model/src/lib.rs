@@ -21,4 +21,3 @@ pub mod tables;
 pub mod trace;
 pub mod verdict;
 pub mod walks;
-

@@ -98,6 +98,14 @@ pub trait Semantics: Debug + Send + Sync + 'static {
         Vec::new()
     }
 
+    /// The mutations of one course, all of them changed in one way that makes some say less and that none could
+    /// undergo alone: such as that all name what was there before instead of what one of them makes.
+    /// `[spec: CHECK-14]`
+    fn simpler_together(&self, mutations: &[Self::Mutation]) -> Vec<Vec<Self::Mutation>> {
+        let _ = mutations;
+        Vec::new()
+    }
+
     /// The same semantics on smaller initial states, the smallest first. `[spec: CHECK-14]`
     fn simpler_initial(&self) -> Vec<Self>
     where

@@ -39,6 +39,15 @@ fn experiment() {
             found.shrunk.is_minimal,
             start.elapsed()
         );
+        let layers = dsr_model::alarms::run_alarm(&alarm, true);
+        for layer in layers {
+            if let Some(f) = layer.finding {
+                println!(
+                    "        {} {} {} steps {} ({:.1} s)",
+                    f.layer, f.clause, f.steps, f.bound, layer.seconds
+                );
+            }
+        }
         let outcome = run(&*found.shrunk.semantics, &found.shrunk.course, true);
         println!("{}", lines(&found.shrunk.course, &outcome).join("\n"));
     }

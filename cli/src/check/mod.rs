@@ -27,6 +27,7 @@ Examples:
   dsr check @tiny --focus robot,cup --mutations 1    two replicas on two vertices of a scene
   dsr check my.scenario.json                         a scenario of your own
   dsr check --deep --seconds-max 1800                as far as it goes in half an hour a run
+  dsr check --layer walks --seed 7                   long random walks; a failure is shrunk before it is shown
 
 Verdicts:
   exhaustive  every state within the bound was judged, and all is well
@@ -60,6 +61,12 @@ pub(crate) struct Arguments {
     /// Larger bounds instead of the default ones: takes long
     #[arg(long)]
     deep: bool,
+    /// What decides random walks, for `--layer walks`
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Random walks of each run, for `--layer walks`: 1000, with --deep 100000
+    #[arg(long)]
+    walks: Option<u64>,
     /// The dictionary of the scenes: a file, `published`, `aal` or `open`
     #[arg(long, default_value = "open")]
     dictionary: String,
@@ -92,12 +99,14 @@ pub(crate) enum Layer {
     L1,
     /// Schedules of a lossy network
     L2,
+    /// Long random walks (L3): only when asked for, a sample and no proof
+    Walks,
     /// Scenarios of agents
     Scenario,
 }
 
 /// The layers in the order of reports.
-const LAYERS: [&str; 5] = ["L0", "L1", "L1 = L2", "L2", "scenario"];
+const LAYERS: [&str; 6] = ["L0", "L1", "L1 = L2", "L2", "L3", "scenario"];
 
 /// How a result is printed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]

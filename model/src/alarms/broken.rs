@@ -139,6 +139,10 @@ impl Semantics for Broken {
         self.core.simpler(mutation)
     }
 
+    fn simpler_together(&self, mutations: &[Act]) -> Vec<Vec<Act>> {
+        self.core.simpler_together(mutations)
+    }
+
     fn simpler_initial(&self) -> Vec<Self> {
         let cores = self.core.simpler_initial().into_iter();
         cores.map(|core| Self { core, ..self.clone() }).collect()

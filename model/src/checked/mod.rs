@@ -226,7 +226,13 @@ impl Semantics for Checked {
     }
 
     fn simpler(&self, mutation: &Act) -> Vec<Act> {
-        simpler::mutations(&mutation.0).into_iter().map(Act).collect()
+        simpler::mutations(&mutation.0, &self.alphabet.focus).into_iter().map(Act).collect()
+    }
+
+    fn simpler_together(&self, mutations: &[Act]) -> Vec<Vec<Act>> {
+        let mutations: Vec<&Mutation> = mutations.iter().map(|act| &act.0).collect();
+        let together = simpler::about_older(&mutations, &self.alphabet.focus).into_iter();
+        together.map(|mutations| mutations.into_iter().map(Act).collect()).collect()
     }
 
     fn simpler_initial(&self) -> Vec<Self> {

@@ -1,16 +1,10 @@
 //! Mutations where earlier ones have other dots. `[spec: CHECK-14]`
 
-use dsr_core::{
-    Delta, Dot, EdgeId, EdgeKey, ElementId, Mutation, Name, Record, State, VertexId, VertexLink,
-};
+use dsr_core::{Delta, Dot, EdgeId, EdgeKey, ElementId, Mutation, Name, Record, State, VertexId, VertexLink};
 
 /// The mutation with each dot that an earlier one made replaced by what that one makes now; `None` if it names
 /// a dot of nobody. Of a dot made twice the later maker counts.
-pub(super) fn mutation(
-    mutation: &Mutation,
-    initial: &State,
-    made: &[(Delta, Delta)],
-) -> Option<Mutation> {
+pub(super) fn mutation(mutation: &Mutation, initial: &State, made: &[(Delta, Delta)]) -> Option<Mutation> {
     let now = |dot: Dot| {
         if VertexId(dot).is_root() || initial.holds(dot) {
             return Some(dot);

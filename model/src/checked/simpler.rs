@@ -1,15 +1,20 @@
 //! Less of a mutation, and of the graph that all start from. `[spec: CHECK-14]`
 
 use dsr_core::{
-    AttributeMap, AttributeUpdates, Dictionary, Dot, Mutation, Name, NewVertex, Placement, Record,
-    State, Value, VertexLink, View, view,
+    AttributeMap, AttributeUpdates, Dictionary, Dot, ElementId, Mutation, Name, NewVertex, Placement, Record,
+    State, Value, VertexId, VertexLink, View, view,
 };
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// The mutation with an attribute less, with a smaller value, or of a vertex without external id or with a
-/// shorter name.
-pub(super) fn mutations(mutation: &Mutation) -> Vec<Mutation> {
+/// The mutation with an attribute less, with a smaller value, about an older vertex, or of a vertex without
+/// external id or with a shorter name.
+pub(super) fn mutations(mutation: &Mutation, focus: &[VertexId]) -> Vec<Mutation> {
+    let about_older = about_older(&[mutation], focus).into_iter().flatten();
+    about_older.chain(less(mutation)).collect()
+}
+
+fn less(mutation: &Mutation) -> Vec<Mutation> {
     match mutation {
         Mutation::AddVertex { vertex, link } => {
             let vertices = vertices(vertex).into_iter();
@@ -36,13 +41,62 @@ pub(super) fn mutations(mutation: &Mutation) -> Vec<Mutation> {
     }
 }
 
+/// Mutations about the root or another vertex of the focus instead of a younger one, whichever name it: an older
+/// dot is the smaller id, and what is there from the start need not be added first.
+pub(super) fn about_older(mutations: &[&Mutation], focus: &[VertexId]) -> Vec<Vec<Mutation>> {
+    let named: BTreeSet<VertexId> = mutations.iter().copied().flat_map(vertices_of).collect();
+    let known: BTreeSet<VertexId> = focus.iter().copied().chain([VertexId::ROOT]).collect();
+    let known = &known;
+    let exchanged = named.into_iter().flat_map(|old| known.range(..old).map(move |&new| (old, new)));
+    let together = exchanged
+        .map(|(old, new)| mutations.iter().map(|mutation| mutation_about(mutation, old, new)).collect());
+    together.collect()
+}
+
+/// The vertices that a mutation names.
+fn vertices_of(mutation: &Mutation) -> Vec<VertexId> {
+    match mutation {
+        Mutation::AddVertex { link, .. } => vec![link.other],
+        Mutation::AddEdge { key, .. } | Mutation::RemoveEdge { key } => vec![key.from, key.to],
+        Mutation::MoveEdge { from, to, .. } => vec![from.from, from.to, to.from, to.to],
+        Mutation::UpdateAttributes { target: ElementId::Vertex(vertex), .. }
+        | Mutation::RemoveVertex { vertex } => vec![*vertex],
+        Mutation::UpdateAttributes { target: ElementId::Edge(_), .. } => Vec::new(),
+    }
+}
+
+/// The mutation with one vertex in the place of another.
+fn mutation_about(mutation: &Mutation, old: VertexId, new: VertexId) -> Mutation {
+    let mut mutation = mutation.clone();
+    let exchange = |vertex: &mut VertexId| {
+        if *vertex == old {
+            *vertex = new;
+        }
+    };
+    match &mut mutation {
+        Mutation::AddVertex { link, .. } => exchange(&mut link.other),
+        Mutation::AddEdge { key, .. } | Mutation::RemoveEdge { key } => {
+            exchange(&mut key.from);
+            exchange(&mut key.to);
+        }
+        Mutation::MoveEdge { from, to, .. } => {
+            [&mut from.from, &mut from.to, &mut to.from, &mut to.to].into_iter().for_each(exchange);
+        }
+        Mutation::UpdateAttributes { target: ElementId::Vertex(vertex), .. }
+        | Mutation::RemoveVertex { vertex } => exchange(vertex),
+        Mutation::UpdateAttributes { target: ElementId::Edge(_), .. } => {}
+    }
+    mutation
+}
+
 fn vertices(vertex: &NewVertex) -> Vec<NewVertex> {
     let mut simpler = Vec::new();
     if vertex.external_id.is_some() {
         simpler.push(NewVertex { external_id: None, ..vertex.clone() });
     }
-    simpler
-        .extend(maps(&vertex.attributes).into_iter().map(|attributes| NewVertex { attributes, ..vertex.clone() }));
+    simpler.extend(
+        maps(&vertex.attributes).into_iter().map(|attributes| NewVertex { attributes, ..vertex.clone() }),
+    );
     if vertex.name.chars().count() > 1 {
         // A name that another vertex has is refused: hence several.
         let names = ('v'..='z').map(|letter| Name::from(letter.to_string()));

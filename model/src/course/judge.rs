@@ -174,8 +174,7 @@ impl<'s, S: Semantics> Judge<'s, S> {
     /// Judges the moment: delivering to everybody whatever any mutation broadcast makes all states equal, and
     /// so does resynchronisation. `[property: JOIN-5]` `[property: SYNC-5]`
     pub fn end(&mut self) -> Result<(), Broken> {
-        let broken =
-            |replica| move |breach| Broken { at: Moment::End, replica: Some(replica), breach };
+        let broken = |replica| move |breach| Broken { at: Moment::End, replica: Some(replica), breach };
         let everything: Vec<S::Delta> = self
             .runner
             .messages()
@@ -204,8 +203,7 @@ impl<'s, S: Semantics> Judge<'s, S> {
 
     /// The first replica asks everybody, then everybody asks the first.
     fn resynchronised(&mut self, states: &[S::State]) -> Result<(), Broken> {
-        let broken =
-            |replica| move |breach| Broken { at: Moment::End, replica: Some(replica), breach };
+        let broken = |replica| move |breach| Broken { at: Moment::End, replica: Some(replica), breach };
         let Some((hub, others)) = states.split_first() else { return Ok(()) };
         let mut hub = hub.clone();
         let semantics = self.runner.semantics();

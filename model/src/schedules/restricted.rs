@@ -82,6 +82,10 @@ impl<S: Semantics> Semantics for Restricted<S> {
         self.whole.simpler(mutation)
     }
 
+    fn simpler_together(&self, mutations: &[S::Mutation]) -> Vec<Vec<S::Mutation>> {
+        self.whole.simpler_together(mutations)
+    }
+
     fn simpler_initial(&self) -> Vec<Self> {
         let wholes = self.whole.simpler_initial().into_iter();
         wholes.map(|whole| Self { whole: Arc::new(whole), mutations: self.mutations.clone() }).collect()

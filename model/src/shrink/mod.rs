@@ -124,19 +124,15 @@ impl Shrinker {
         }
         let mut search =
             Search { recorded: Recorded::of(&**semantics, course), tries_max: self.tries_max, fails };
-        loop {
+        // Each kind is tried anew after every kind that came to something: what was in the way may be gone.
+        let mut at = 0;
+        while let Some(&kind) = self.kinds.get(at) {
             let made: usize = shrunk.made.values().sum();
-            for &kind in &self.kinds {
-                search.reduce(&mut shrunk, kind);
-            }
-            if shrunk.tries >= self.tries_max {
-                return shrunk;
-            }
-            if made == shrunk.made.values().sum::<usize>() {
-                shrunk.is_minimal = true;
-                return shrunk;
-            }
+            search.reduce(&mut shrunk, kind);
+            at = if made == shrunk.made.values().sum::<usize>() { at + 1 } else { 0 };
         }
+        shrunk.is_minimal = shrunk.tries < self.tries_max;
+        shrunk
     }
 }
 
@@ -158,7 +154,9 @@ impl<S: Semantics, F: Fn(&S, &Course<S::Mutation>) -> bool> Search<S, F> {
         let mut at = 0;
         loop {
             let plans = kind.plans(&shrunk.semantics, &shrunk.course, &self.recorded);
-            let Some(found) = (at..plans.len()).find(|&at| self.attempt(shrunk, kind, &plans[at])) else { return };
+            let Some(found) = (at..plans.len()).find(|&at| self.attempt(shrunk, kind, &plans[at])) else {
+                return;
+            };
             at = found;
         }
     }

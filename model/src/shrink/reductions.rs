@@ -8,12 +8,14 @@ use std::sync::Arc;
 /// One way to make a course smaller.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Reduction {
-    /// A replica goes, with all that it does and all that only it receives.
+    /// A replica goes, with all that it does and receives; or another one does in its place what it did.
     Replica,
     /// An event goes; of one that sends a message, whatever becomes of the message as well.
     Event,
     /// A mutation of a group goes.
     OfGroup,
+    /// Mutations say less together: see [`simpler_together`](Semantics::simpler_together).
+    Mutations,
     /// A mutation is made in one message with the next one of its author, at the place of either.
     Merge,
     /// A mutation says less: see [`simpler`](Semantics::simpler).
@@ -26,9 +28,17 @@ pub enum Reduction {
 type Plans<S> = Vec<(Arc<S>, Plan<<S as Semantics>::Mutation>)>;
 
 impl Reduction {
-    /// All kinds, those that take away most first.
-    pub const ALL: [Self; 6] =
-        [Self::Replica, Self::Event, Self::OfGroup, Self::Merge, Self::Initial, Self::Mutation];
+    /// All kinds, those that take away most first; the initial state last, so that mutations can still come to be
+    /// about what is there from the start.
+    pub const ALL: [Self; 7] = [
+        Self::Replica,
+        Self::Event,
+        Self::OfGroup,
+        Self::Mutation,
+        Self::Mutations,
+        Self::Merge,
+        Self::Initial,
+    ];
 
     /// Its name in reports, for what is counted of it.
     pub const fn name(self) -> &'static str {
@@ -38,6 +48,7 @@ impl Reduction {
             Self::OfGroup => "mutations of groups dropped",
             Self::Merge => "messages merged",
             Self::Mutation => "mutations made simpler",
+            Self::Mutations => "names replaced in all mutations",
             Self::Initial => "parts of the initial state dropped",
         }
     }
@@ -60,22 +71,44 @@ impl Reduction {
             Self::OfGroup => without_one_of_group(&whole),
             Self::Merge => merged(&whole),
             Self::Mutation => simpler(&**semantics, &whole),
+            Self::Mutations => simpler_together(&**semantics, &whole),
         };
         plans.into_iter().map(|plan| (semantics.clone(), plan)).collect()
     }
 }
 
 fn without_a_replica<M: Clone>(whole: &Plan<M>) -> Vec<Plan<M>> {
-    if whole.replicas.len() < 2 {
-        return Vec::new();
-    }
-    let without = whole.replicas.iter().rev().map(|gone| {
+    let without = |gone: usize| {
         let mut plan = whole.clone();
         // What happens to a replica that is not there, and to its messages, cannot be carried out.
-        plan.replicas.retain(|replica| replica != gone);
+        plan.replicas.retain(|&replica| replica != gone);
         plan
-    });
-    without.collect()
+    };
+    let instead = |gone: usize, another: usize| {
+        let mut plan = without(gone);
+        for item in &mut plan.items {
+            item.event = by_another(&item.event, gone, another);
+        }
+        plan
+    };
+    let pairs = || {
+        let replicas = || whole.replicas.iter().rev();
+        replicas().flat_map(move |&gone| replicas().map(move |&another| (gone, another)))
+    };
+    let pairs = pairs().filter(|(gone, another)| gone != another);
+    let alone = whole.replicas.iter().rev().filter(|_| whole.replicas.len() > 1);
+    alone.map(|&gone| without(gone)).chain(pairs.map(|(gone, another)| instead(gone, another))).collect()
+}
+
+fn by_another<M: Clone>(event: &Event<M>, gone: usize, another: usize) -> Event<M> {
+    let who = |replica: usize| if replica == gone { another } else { replica };
+    match event.clone() {
+        Event::Mutate { replica, mutations } => Event::Mutate { replica: who(replica), mutations },
+        Event::Deliver { replica, message } => Event::Deliver { replica: who(replica), message },
+        Event::Lose { replica, message } => Event::Lose { replica: who(replica), message },
+        Event::Restart { replica, keeps } => Event::Restart { replica: who(replica), keeps },
+        Event::Answer { replica, to } => Event::Answer { replica: who(replica), to: who(to) },
+    }
 }
 
 fn without_event<M: Clone>(whole: &Plan<M>, at: usize) -> Plan<M> {
@@ -104,7 +137,8 @@ fn merged<M: Clone>(whole: &Plan<M>) -> Vec<Plan<M>> {
     let mut plans = Vec::new();
     for (first, item) in whole.items.iter().enumerate() {
         let Event::Mutate { replica, .. } = item.event else { continue };
-        let is_next = |item: &Item<M>| matches!(item.event, Event::Mutate { replica: who, .. } if who == replica);
+        let is_next =
+            |item: &Item<M>| matches!(item.event, Event::Mutate { replica: who, .. } if who == replica);
         let Some(second) = (first + 1..whole.items.len()).find(|&at| is_next(&whole.items[at])) else {
             continue;
         };
@@ -133,8 +167,7 @@ fn both<M: Clone>(first: &Item<M>, second: &Item<M>) -> Item<M> {
 fn simpler<S: Semantics>(semantics: &S, whole: &Plan<S::Mutation>) -> Vec<Plan<S::Mutation>> {
     let mut plans = Vec::new();
     for (at, item) in whole.items.iter().enumerate() {
-        let Event::Mutate { mutations, .. } = &item.event else { continue };
-        for (place, mutation) in mutations.iter().enumerate() {
+        for (place, mutation) in made(&item.event).iter().enumerate() {
             for simpler in semantics.simpler(mutation) {
                 let mut plan = whole.clone();
                 if let Event::Mutate { mutations, .. } = &mut plan.items[at].event {
@@ -145,4 +178,29 @@ fn simpler<S: Semantics>(semantics: &S, whole: &Plan<S::Mutation>) -> Vec<Plan<S
         }
     }
     plans
+}
+
+fn simpler_together<S: Semantics>(semantics: &S, whole: &Plan<S::Mutation>) -> Vec<Plan<S::Mutation>> {
+    let mutations: Vec<S::Mutation> =
+        whole.items.iter().flat_map(|item| made(&item.event)).cloned().collect();
+    let together = semantics.simpler_together(&mutations).into_iter();
+    let plans = together.map(|simpler| {
+        let mut plan = whole.clone();
+        let mut simpler = simpler.into_iter();
+        for item in &mut plan.items {
+            if let Event::Mutate { mutations, .. } = &mut item.event {
+                let count = mutations.len();
+                *mutations = simpler.by_ref().take(count).collect();
+            }
+        }
+        plan
+    });
+    plans.collect()
+}
+
+fn made<M>(event: &Event<M>) -> &[M] {
+    match event {
+        Event::Mutate { mutations, .. } => mutations,
+        _ => &[],
+    }
 }

@@ -10,11 +10,7 @@ use std::sync::Arc;
 
 /// What is judged besides what the semantics judges.
 const BESIDES: [Clause; 3] = [
-    Clause {
-        id: "MUT-0.4",
-        claim: "L2",
-        what: "a group of mutations is the join of its deltas",
-    },
+    Clause { id: "MUT-0.4", claim: "L2", what: "a group of mutations is the join of its deltas" },
     Clause { id: "JOIN-5", claim: "L3", what: "at the end, delivering what is missing makes all equal" },
     Clause { id: "SYNC-5", claim: "L3", what: "at the end, resynchronisation makes all equal" },
 ];
@@ -151,9 +147,7 @@ impl<S: Semantics> WalkRun<S> {
         let expected = happenings.into_iter().filter(|(_, expected, _)| *expected);
         seen.extend(expected.map(|(name, _, count)| (name.into(), count > 0)));
         let names = self.semantics.witnesses().into_iter().enumerate();
-        seen.extend(
-            names.filter(|(bit, _)| counts.witnesses.has(*bit)).map(|(_, name)| (name.into(), true)),
-        );
+        seen.extend(names.filter(|(bit, _)| counts.witnesses.has(*bit)).map(|(_, name)| (name.into(), true)));
         seen
     }
 

@@ -22,7 +22,8 @@ impl Faults {
     /// All of them.
     pub const ALL: Self = Self { losses: true, duplicates: true, restarts: true, resynchronisation: true };
     /// None: every message arrives once, whenever it pleases.
-    pub const NONE: Self = Self { losses: false, duplicates: false, restarts: false, resynchronisation: false };
+    pub const NONE: Self =
+        Self { losses: false, duplicates: false, restarts: false, resynchronisation: false };
 }
 
 /// How walks go.
@@ -110,8 +111,7 @@ impl Walk {
     /// happen any more, at the most events, or where a clause breaks. `[spec: CHECK-13]`
     pub fn walk<S: Semantics>(&self, semantics: &S, number: u64) -> Walked<S::Mutation> {
         let course = Course::among(self.replicas);
-        let counts =
-            Counts { walks: 1, mutations: vec![0; semantics.kinds().len()], ..Counts::default() };
+        let counts = Counts { walks: 1, mutations: vec![0; semantics.kinds().len()], ..Counts::default() };
         match Judge::new(semantics, self.replicas) {
             Ok(judge) => {
                 let dice = Dice::new(self.seed, number);
@@ -149,8 +149,8 @@ impl<S: Semantics> Walker<'_, S> {
                 Stop::Impossible(why) => Outcome::Invalid { at: self.course.events.len() - 1, why },
             });
         }
-        let outcome = outcome
-            .unwrap_or_else(|| self.judge.end().map_or_else(Outcome::Broken, |()| Outcome::Held));
+        let outcome =
+            outcome.unwrap_or_else(|| self.judge.end().map_or_else(Outcome::Broken, |()| Outcome::Held));
         (self.counts.judged, self.counts.witnesses) = (self.judge.judged, self.judge.witnesses);
         Walked { course: self.course, outcome, counts: self.counts }
     }
@@ -214,7 +214,8 @@ impl<S: Semantics> Walker<'_, S> {
     fn under_way(&self) -> Vec<(usize, usize)> {
         let sent = self.judge.runner().messages().len();
         let copies = (0..sent).flat_map(|message| (0..self.walk.replicas).map(move |to| (message, to)));
-        let is_under_way = |copy: &(usize, usize)| !self.arrived.contains(copy) && self.can_arrive(copy.0, copy.1);
+        let is_under_way =
+            |copy: &(usize, usize)| !self.arrived.contains(copy) && self.can_arrive(copy.0, copy.1);
         copies.filter(is_under_way).collect()
     }
 
@@ -242,7 +243,12 @@ impl<S: Semantics> Walker<'_, S> {
 
     /// A mutation that is not refused, of a kind drawn first: there are far more concrete ones of some kinds
     /// than of others.
-    fn mutation(&mut self, semantics: &S, state: &S::State, identity: usize) -> Option<(S::Mutation, S::State)> {
+    fn mutation(
+        &mut self,
+        semantics: &S,
+        state: &S::State,
+        identity: usize,
+    ) -> Option<(S::Mutation, S::State)> {
         let mut by_kind: Vec<Vec<S::Mutation>> = vec![Vec::new(); semantics.kinds().len()];
         for mutation in semantics.mutations(state, identity) {
             if let Some(of_kind) = by_kind.get_mut(semantics.kind(&mutation)) {
