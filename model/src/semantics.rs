@@ -25,6 +25,13 @@ pub trait Semantics: Debug + Send + Sync + 'static {
     /// [`mutate`](Self::mutate) refuses count as not enabled.
     fn mutations(&self, state: &Self::State, replica: usize) -> Vec<Self::Mutation>;
 
+    /// Whether a replica may try a mutation in a state, listed by [`mutations`](Self::mutations) or not: asked of
+    /// courses that nobody searched for. A semantics whose [`mutate`](Self::mutate) refuses whatever must not be
+    /// tried allows everything.
+    fn allows(&self, state: &Self::State, replica: usize, mutation: &Self::Mutation) -> bool {
+        self.mutations(state, replica).contains(mutation)
+    }
+
     /// What a mutation broadcasts and leaves behind, or `None` when it is refused.
     fn mutate(&self, state: &Self::State, replica: usize, mutation: &Self::Mutation) -> Option<Step<Self>>;
 

@@ -15,7 +15,8 @@ use std::path::{Path, PathBuf};
 
 const ABOUT: &str = "\
 Without FILE, checks the checked semantics on the embedded flat: the algebra of states (L0), histories of concurrent \
-mutations (L1), schedules of a lossy network (L2) and every shipped scenario.
+mutations (L1), schedules of a lossy network (L2) and every shipped scenario. Long random walks (L3) are made only when \
+asked for: they are a sample, so their verdict is never more than bounded.
 
 With FILE, a scene is checked by L1 on some of its vertices, and a scenario is explored in all its interleavings and \
 deliveries.";

@@ -107,6 +107,10 @@ impl Semantics for Broken {
         self.core.mutations(state, self.flaw.identity(replica))
     }
 
+    fn allows(&self, state: &State, replica: usize, mutation: &Act) -> bool {
+        self.core.allows(state, self.flaw.identity(replica), mutation)
+    }
+
     fn mutate(&self, state: &State, replica: usize, mutation: &Act) -> Option<Step<Self>> {
         let author = Author::new(replica_id(self.flaw.identity(replica)));
         let before = view(state, &self.core.dictionary);

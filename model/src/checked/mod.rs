@@ -177,6 +177,11 @@ impl Semantics for Checked {
         self.alphabet.enabled(&view(state, &self.dictionary), replica).into_iter().map(Act).collect()
     }
 
+    /// The alphabet is a sample; the core refuses what must not be done.
+    fn allows(&self, _: &State, _: usize, _: &Act) -> bool {
+        true
+    }
+
     fn mutate(&self, state: &State, replica: usize, mutation: &Act) -> Option<Step<Self>> {
         let author = Author::new(replica_id(replica));
         let delta = mutation.0.delta(&view(state, &self.dictionary), author).ok()?;

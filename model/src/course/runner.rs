@@ -80,8 +80,10 @@ pub enum StepError {
         /// Who.
         replica: usize,
     },
-    /// The semantics refuses it in that state.
-    #[error("replica {replica} cannot do {mutation:?}, mutation {at} of the event: it is refused")]
+    /// The semantics refuses it in that state, or does not [allow](Semantics::allows) it.
+    #[error(
+        "replica {replica} cannot do {mutation:?}, mutation {at} of the event: it is refused in that state"
+    )]
     Refused {
         /// Who.
         replica: usize,
@@ -236,7 +238,8 @@ impl<'s, S: Semantics> Runner<'s, S> {
         let mut now = self.state(replica)?.clone();
         let mut locals = Vec::with_capacity(mutations.len());
         for (at, mutation) in mutations.iter().enumerate() {
-            let step = self.semantics.mutate(&now, identity, mutation);
+            let allowed = self.semantics.allows(&now, identity, mutation);
+            let step = allowed.then(|| self.semantics.mutate(&now, identity, mutation)).flatten();
             let refused = || StepError::Refused { replica, at, mutation: mutation.to_string() };
             let step = step.ok_or_else(refused)?;
             let after = self.semantics.join(&now, &step.delta);

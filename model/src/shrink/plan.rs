@@ -142,6 +142,9 @@ impl<S: Semantics> Carrier<'_, S> {
         let (mut now, mut kept) = (state, Vec::new());
         for (mutation, &(event, place)) in mutations.iter().zip(origins) {
             let Some(mutation) = semantics.readdressed(mutation, &self.made) else { continue };
+            if !semantics.allows(&now, identity, &mutation) {
+                continue;
+            }
             let Some(step) = semantics.mutate(&now, identity, &mutation) else { continue };
             now = semantics.join(&now, &step.delta);
             let old = self.recorded.deltas.get(event).and_then(|deltas| deltas.get(place));

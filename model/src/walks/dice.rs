@@ -3,7 +3,7 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 
-/// A stream of numbers. ChaCha is defined bit for bit, so a seed means the same walk everywhere and for ever;
+/// A stream of numbers. Its cipher, `ChaCha`, is defined bit for bit, so a seed means the same walk everywhere and for ever;
 /// each walk has a stream of its own, so it does not depend on those before it.
 #[derive(Clone, Debug)]
 pub(super) struct Dice(ChaCha8Rng);

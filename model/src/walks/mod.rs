@@ -9,11 +9,14 @@
 //! |---|---|
 //! | `dice` | numbers that are the same for the same seed, on every machine and thread |
 //! | `walk` | one walk: which events can happen, and which is drawn |
+//! | `counts` | what walks did and saw |
 //! | `run` | many walks and their report |
 
+mod counts;
 mod dice;
 mod run;
 mod walk;
 
+pub use counts::Counts;
 pub use run::{WalkFinding, WalkRun, find};
-pub use walk::{Counts, Faults, Walk, Walked};
+pub use walk::{Faults, Walk, Walked};
