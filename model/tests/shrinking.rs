@@ -1,6 +1,6 @@
 //! Shrinking: what every shrunk course has to be, on cores that are broken on purpose.
 
-use dsr_core::{Mutation, MutationKind, NewVertex, VertexId, VertexLink};
+use dsr_core::{EdgeKey, ElementId, Mutation, MutationKind, NewVertex, Value, VertexId, VertexLink};
 use dsr_model::alarms::{A, Alarm, B, Broken, all, run_alarm, subject};
 use dsr_model::checked::{Act, Checked};
 use dsr_model::course::{Course, Event, Outcome, lines, run};
@@ -114,6 +114,7 @@ fn law_shrinking_is_idempotent_and_a_function() {
             all().iter().find(|alarm| alarm.name == name).unwrap().core(&MutationKind::ALL, &[A, B]),
         );
         let fails = breaks_as::<Broken>(&finding.outcome);
+        // Walks this short have all the tries that there are.
         let again = shrink(&core, &finding.course, &fails);
         assert_eq!((&again.course, again.tries), (&finding.shrunk.course, finding.shrunk.tries), "{name}");
         let twice = shrink(&finding.shrunk.semantics, &finding.shrunk.course, &fails);
@@ -238,6 +239,64 @@ fn law_the_initial_graph_shrinks_too() {
         assert!(smaller.judge(&smaller.initial).is_ok());
         assert!(dsr_core::view(&smaller.initial, &smaller.dictionary).repairs().is_empty());
     }
+}
+
+/// Whatever is made simpler stays of its kind, and there is an end to it, whichever way is taken.
+/// [spec: CHECK-14]
+#[test]
+fn law_simpler_comes_to_an_end() {
+    let semantics = subject(&MutationKind::ALL, &[A, B]);
+    let dot = |sequence| VertexId(dsr_core::Dot::new(dsr_core::ReplicaId::agent(1), sequence));
+    let text = |text: &str| Value::String(text.into());
+    let attributes: BTreeMap<dsr_core::Name, Value> = [
+        ("a".into(), Value::Int(-3)),
+        ("b".into(), text("wide")),
+        ("c".into(), Value::FloatVec([1.0, 2.0].into())),
+        ("d".into(), Value::Double(f64::NAN)),
+    ]
+    .into();
+    let mut vertex = NewVertex::new("object", "a long name");
+    (vertex.external_id, vertex.attributes) = (Some(7), attributes.clone());
+    let link = VertexLink { attributes: attributes.clone(), ..VertexLink::child_of(dot(5)) };
+    let (from, to) = (EdgeKey::new(dot(1), "has", dot(2)), EdgeKey::new(dot(3), "has", dot(4)));
+    let updates = attributes.iter().map(|(name, value)| (name.clone(), Some(value.clone())));
+    let updates = updates.chain([("e".into(), None)]).collect();
+    let mutations = [
+        Mutation::AddVertex { vertex, link },
+        Mutation::AddEdge { key: from.clone(), attributes: attributes.clone() },
+        Mutation::MoveEdge { from: from.clone(), to, attributes },
+        Mutation::UpdateAttributes { target: ElementId::Vertex(dot(1)), updates },
+        Mutation::RemoveEdge { key: from },
+        Mutation::RemoveVertex { vertex: dot(1) },
+    ];
+    for mutation in mutations.map(Act) {
+        let mut way = vec![mutation.clone()];
+        for turn in 0.. {
+            assert!(turn < 200, "no end: {mutation}");
+            let simpler = semantics.simpler(&way[way.len() - 1]);
+            assert!(simpler.iter().all(|simpler| semantics.kind(simpler) == semantics.kind(&mutation)));
+            assert!(simpler.iter().all(|simpler| !way.contains(simpler)), "in a circle: {mutation}");
+            // The last one takes away least, so this way is among the longest.
+            let Some(last) = simpler.last() else { break };
+            way.push(last.clone());
+        }
+        assert!(way.len() > 1, "never simpler: {mutation}");
+    }
+}
+
+/// What cannot happen is left as it is. [spec: CHECK-13] [spec: CHECK-14]
+#[test]
+fn canary_a_course_that_cannot_happen_is_not_shrunk() {
+    let semantics = Arc::new(subject(&MutationKind::ALL, &[A, B]));
+    let events = vec![add("first"), Event::Deliver { replica: 1, message: 4 }, add("second")];
+    let course = Course { events, ..Course::among(2) };
+    let outcome = run(&*semantics, &course, true);
+    assert!(matches!(outcome, Outcome::Invalid { at: 1, .. }), "{outcome}");
+    let shrunk = shrink(&semantics, &course, breaks_as(&outcome));
+    assert_eq!((shrunk.course, shrunk.is_minimal), (course.clone(), false));
+    // Of what is left of it, what cannot happen goes.
+    let fewer = neighbours(&semantics, &course, Reduction::Event);
+    assert!(fewer.iter().all(|(_, course)| run(&*semantics, course, true) == Outcome::Held));
 }
 
 /// A shown course is told line by line.

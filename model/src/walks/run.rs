@@ -4,7 +4,7 @@ use super::{Counts, Walk, Walked};
 use crate::course::{self, Course, Outcome, lines};
 use crate::progress::Progress;
 use crate::semantics::{Clause, Semantics};
-use crate::shrink::{Shrunk, breaks_as, shrink};
+use crate::shrink::{Shrinker, Shrunk, TRIES_MAX, breaks_as};
 use crate::verdict::{Evidence, PropertyKind, PropertyReport, RunReport, RunTrace, StateCounts, Verdict};
 use std::sync::Arc;
 
@@ -14,6 +14,11 @@ const BESIDES: [Clause; 3] = [
     Clause { id: "JOIN-5", claim: "L3", what: "at the end, delivering what is missing makes all equal" },
     Clause { id: "SYNC-5", claim: "L3", what: "at the end, resynchronisation makes all equal" },
 ];
+
+/// The longer a walk, the longer each try to shrink it takes at first: about so many events are tried at most.
+const TRIED_EVENTS_MAX: usize = 5_000_000;
+/// The fewest tries however long a walk is.
+const TRIES_MIN: usize = 1_000;
 
 /// A run of L3: the walks from number 0 on, unless a limit stops it.
 #[derive(Clone, Debug)]
@@ -56,7 +61,9 @@ fn finding<S: Semantics>(
 ) -> Option<WalkFinding<S>> {
     let Walked { course, outcome, .. } = walked;
     outcome.clause()?;
-    let shrunk = shrink(semantics, &course, breaks_as(&outcome));
+    let tries_max = TRIED_EVENTS_MAX / (course.events.len() + 1);
+    let shrinker = Shrinker { tries_max: tries_max.clamp(TRIES_MIN, TRIES_MAX), ..Shrinker::default() };
+    let shrunk = shrinker.shrink(semantics, &course, breaks_as(&outcome));
     Some(WalkFinding { number, course, outcome, shrunk })
 }
 
