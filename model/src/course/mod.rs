@@ -10,6 +10,8 @@
 mod judge;
 mod runner;
 mod tell;
+#[cfg(test)]
+mod tests;
 
 pub use judge::{Broken, Judge, Moment, Outcome, Stop, run};
 pub use runner::{Local, Message, Runner, StepError, Stepped};
