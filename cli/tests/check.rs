@@ -70,6 +70,24 @@ fn a_scenario_is_explored() {
     assert!(text(&output.stdout).contains("verdict: exhaustive"));
 }
 
+/// A sample shows less than a search, and says so; a seed says what it was. `[spec: CHECK-13]`
+#[test]
+fn random_walks_are_bounded_and_told_by_their_seed() {
+    let walks = |seed: &str| {
+        let output = dsr(&["check", "--layer", "walks", "--walks", "3", "--seed", seed, "--format", "json"]);
+        assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
+        let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        assert_eq!(report["verdict"], "bounded");
+        let runs = report["runs"].as_array().expect("a list").clone();
+        assert!(!runs.is_empty() && runs.iter().all(|run| run["layer"] == "L3"));
+        runs.iter().map(|run| (run["states"].clone(), run["notes"].clone())).collect::<Vec<_>>()
+    };
+    let first = walks("9");
+    assert!(first[0].1.to_string().contains("seed 9, walks 0 to 2 of 3"), "{}", first[0].1);
+    assert_eq!(walks("9"), first);
+    assert_ne!(walks("10"), first);
+}
+
 #[test]
 fn a_run_that_is_cut_short_is_incomplete() {
     let output = dsr(&["check", "@tiny", "--mutations", "2", "--states-max", "20"]);
@@ -106,5 +124,5 @@ fn wrong_usage_and_input_say_what_to_do() {
     refused(&["check", "@tiny", "--replicas", "9"], &["--replicas"]);
     refused(&["check", "--focus", "robot"], &["@flat"]);
     refused(&["check", "@nowhere"], &["@flat or @tiny"]);
-    refused(&["check", "--layer", "L9"], &["l0, l1, l2, scenario"]);
+    refused(&["check", "--layer", "L9"], &["l0, l1, l2, walks, scenario"]);
 }

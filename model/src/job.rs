@@ -7,6 +7,7 @@ use crate::scenario::{self, Scenario};
 use crate::schedules::{ScheduleBound, ScheduleRun, check_reduction};
 use crate::semantics::Semantics;
 use crate::verdict::{Evidence, PropertyKind, PropertyReport, RunReport, RunTrace, StateCounts, Verdict};
+use crate::walks::WalkRun;
 use std::sync::Arc;
 
 /// One run of a suite.
@@ -40,6 +41,20 @@ impl<S: Semantics> Job for ScheduleRun<S> {
 
     fn layer(&self) -> &'static str {
         "L2"
+    }
+
+    fn run(&self, progress: &Arc<Progress>) -> RunReport {
+        Self::run(self, progress)
+    }
+}
+
+impl<S: Semantics> Job for WalkRun<S> {
+    fn name(&self) -> String {
+        self.name.clone()
+    }
+
+    fn layer(&self) -> &'static str {
+        "L3"
     }
 
     fn run(&self, progress: &Arc<Progress>) -> RunReport {

@@ -27,6 +27,13 @@ pub trait Semantics: Debug + Send + Sync + 'static {
     /// [`mutate`](Self::mutate) refuses count as not enabled.
     fn mutations(&self, state: &Self::State, replica: usize) -> Vec<Self::Mutation>;
 
+    /// Whether a replica may try a mutation in a state, listed by [`mutations`](Self::mutations) or not: asked of
+    /// courses that nobody searched for. A semantics whose [`mutate`](Self::mutate) refuses whatever must not be
+    /// tried allows everything.
+    fn allows(&self, state: &Self::State, replica: usize, mutation: &Self::Mutation) -> bool {
+        self.mutations(state, replica).contains(mutation)
+    }
+
     /// What a mutation broadcasts and leaves behind, or `None` when it is refused.
     fn mutate(&self, state: &Self::State, replica: usize, mutation: &Self::Mutation) -> Option<Step<Self>>;
 
@@ -71,6 +78,49 @@ pub trait Semantics: Debug + Send + Sync + 'static {
     fn join_states(&self, left: &Self::State, right: &Self::State) -> Option<Self::State> {
         let _ = (left, right);
         None
+    }
+
+    /// Two deltas as one message: what [`join`](Self::join) makes of both, one after the other. `None` if there
+    /// is no such delta; then a group of mutations carries its deltas one by one.
+    fn join_deltas(&self, left: &Self::Delta, right: &Self::Delta) -> Option<Self::Delta> {
+        let _ = (left, right);
+        None
+    }
+
+    /// The same mutation where what it names has other ids: of each pair in `made`, an earlier mutation that
+    /// made the first delta now makes the second. `None` if it names what nobody has made. `[spec: CHECK-14]`
+    ///
+    /// The default serves a semantics whose mutations name nothing that mutations make.
+    fn readdressed(
+        &self,
+        mutation: &Self::Mutation,
+        made: &[(Self::Delta, Self::Delta)],
+    ) -> Option<Self::Mutation> {
+        let _ = made;
+        Some(mutation.clone())
+    }
+
+    /// Mutations of the same kind that say less, the least first; each must be smaller in some measure of the
+    /// semantics' own, or a search for the least has no end. `[spec: CHECK-14]`
+    fn simpler(&self, mutation: &Self::Mutation) -> Vec<Self::Mutation> {
+        let _ = mutation;
+        Vec::new()
+    }
+
+    /// The mutations of one course, all of them changed in one way that makes some say less and that none could
+    /// undergo alone: such as that all name what was there before instead of what one of them makes.
+    /// `[spec: CHECK-14]`
+    fn simpler_together(&self, mutations: &[Self::Mutation]) -> Vec<Vec<Self::Mutation>> {
+        let _ = mutations;
+        Vec::new()
+    }
+
+    /// The same semantics on smaller initial states, the smallest first. `[spec: CHECK-14]`
+    fn simpler_initial(&self) -> Vec<Self>
+    where
+        Self: Sized,
+    {
+        Vec::new()
     }
 
     /// A delta's stamp, if it makes claims. `[spec: CHECK-11]`
@@ -194,12 +244,6 @@ pub trait Semantics: Debug + Send + Sync + 'static {
     fn delta_text(&self, delta: &Self::Delta) -> String {
         let _ = delta;
         String::new()
-    }
-
-    /// One delta for two, if there can be one: a group of mutations is then one message.
-    fn join_deltas(&self, left: &Self::Delta, right: &Self::Delta) -> Option<Self::Delta> {
-        let _ = (left, right);
-        None
     }
 
     /// What it takes to make this semantics again, for traces: its dictionary, what replicas start from.

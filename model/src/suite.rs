@@ -8,6 +8,7 @@ use crate::job::{Job, ReductionRun};
 use crate::schedules::{Restricted, ScheduleBound, ScheduleRun};
 use crate::semantics::Semantics;
 use crate::verdict::RunReport;
+use crate::walks::{Faults, Walk, WalkRun};
 use dsr_core::{Dictionary, Mutation, MutationKind, MutationKind as K, RT, State};
 use std::sync::Arc;
 
@@ -111,6 +112,26 @@ impl Subject<'_> {
         ])
     }
 
+    /// The runs of L3: few replicas that do much, and many that do less; with `deep` longer ones.
+    /// `[spec: CHECK-13]`
+    pub fn walks(&self, seed: u64, walks: u64, deep: bool) -> Result<Vec<WalkRun<Checked>>, FocusError> {
+        let whole = self.histories(self.names.len(), Bound { replicas: 2, mutations: 1 }, &K::ALL)?;
+        let longer = if deep { 3 } else { 1 };
+        let run = |(replicas, mutations_max): (usize, usize)| {
+            let mutations_max = longer * mutations_max;
+            let events_max = EVENTS_PER_COPY * replicas * replicas * mutations_max;
+            let faults = Faults::ALL;
+            WalkRun {
+                name: format!("{replicas} × {mutations_max}, all six, seed {seed}"),
+                semantics: whole.semantics.clone(),
+                focus: whole.focus,
+                walk: Walk { replicas, mutations_max, events_max, seed, faults },
+                walks,
+            }
+        };
+        Ok([(2, 12), (3, 8), (5, 5)].map(run).into())
+    }
+
     /// The runs of `--deep`: all six kinds, then each pair of kinds three mutations deep, among four
     /// replicas, and both; at the last vertex where the whole focus is hopeless. `[spec: CHECK-3]`
     pub fn deep_histories(&self) -> Result<Vec<HistoryRun<Checked>>, FocusError> {
@@ -128,6 +149,9 @@ impl Subject<'_> {
         Ok(runs)
     }
 }
+
+/// A mutation goes to each replica, in the worst case with a duplicate or an answer for each.
+const EVENTS_PER_COPY: usize = 2;
 
 /// Schedules are many: L2 looks at this many vertices.
 const SCHEDULE_FOCUS: usize = 2;

@@ -126,7 +126,7 @@ pub struct StateCounts {
 pub struct RunReport {
     /// Which run.
     pub name: String,
-    /// `L0`, `L1`, `L2` or `scenario`.
+    /// `L0`, `L1`, `L2`, `L3` or `scenario`.
     pub layer: String,
     /// Whose semantics.
     pub semantics: String,

@@ -16,7 +16,8 @@ use std::path::{Path, PathBuf};
 
 const ABOUT: &str = "\
 Without FILE, checks the checked semantics on the embedded flat: the algebra of states (L0), histories of concurrent \
-mutations (L1), schedules of a lossy network (L2) and every shipped scenario.
+mutations (L1), schedules of a lossy network (L2) and every shipped scenario. Long random walks (L3) are made only when \
+asked for: they are a sample, so their verdict is never more than bounded.
 
 With FILE, a scene is checked by L1 on some of its vertices, and a scenario is explored in all its interleavings and \
 deliveries.";
@@ -29,6 +30,7 @@ Examples:
   dsr check my.scenario.json                         a scenario of your own
   dsr check --report result.html                     a page to look at the result in a browser
   dsr check --deep --seconds-max 1800                as far as it goes in half an hour a run
+  dsr check --layer walks --seed 7                   long random walks; a failure is shrunk before it is shown
 
 Verdicts:
   exhaustive  every state within the bound was judged, and all is well
@@ -62,6 +64,12 @@ pub(crate) struct Arguments {
     /// Larger bounds instead of the default ones: takes long
     #[arg(long)]
     deep: bool,
+    /// What decides random walks, for `--layer walks`
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Random walks of each run, for `--layer walks`: 1000, with --deep 100000
+    #[arg(long)]
+    walks: Option<u64>,
     /// The dictionary of the scenes: a file, `published`, `aal` or `open`
     #[arg(long, default_value = "open")]
     dictionary: String,
@@ -97,12 +105,14 @@ pub(crate) enum Layer {
     L1,
     /// Schedules of a lossy network
     L2,
+    /// Long random walks (L3): only when asked for, a sample and no proof
+    Walks,
     /// Scenarios of agents
     Scenario,
 }
 
 /// The layers in the order of reports.
-const LAYERS: [&str; 5] = ["L0", "L1", "L1 = L2", "L2", "scenario"];
+const LAYERS: [&str; 6] = ["L0", "L1", "L1 = L2", "L2", "L3", "scenario"];
 
 /// How a result is printed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]

@@ -14,6 +14,11 @@ use std::sync::Arc;
 /// Replicas touch this many vertices of a scene unless `--focus` names them.
 const FOCUS_DEFAULT: usize = 2;
 
+/// Random walks of a run unless `--walks` says otherwise.
+const WALKS: u64 = 1000;
+/// The same with `--deep`.
+const WALKS_DEEP: u64 = 100_000;
+
 /// Runs, the longest first, so that two cores are busy to the end.
 pub(super) fn jobs(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
     if arguments.files.is_empty() {
@@ -37,6 +42,14 @@ fn suite(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
     if wanted(Layer::L1) {
         let histories = if arguments.deep { subject.deep_histories() } else { subject.default_histories() };
         for run in histories.map_err(|error| error.to_string())? {
+            jobs.push(Box::new(run));
+        }
+    }
+    // Never by default: a sample is bounded, and would make the whole suite so.
+    if arguments.layer.contains(&Layer::Walks) {
+        let (walks, deep) = (if arguments.deep { WALKS_DEEP } else { WALKS }, arguments.deep);
+        let runs = subject.walks(arguments.seed, arguments.walks.unwrap_or(walks), deep);
+        for run in runs.map_err(|error| error.to_string())? {
             jobs.push(Box::new(run));
         }
     }

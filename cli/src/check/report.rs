@@ -167,11 +167,12 @@ fn add_witnesses(text: &mut String, runs: &[RunReport]) {
 
 fn add_traces(text: &mut String, runs: &[RunReport]) {
     for run in runs {
+        let way = if run.layer == "L3" { "shrunk" } else { "shortest" };
         for trace in &run.traces {
             add(
                 text,
                 format_args!(
-                    "\n{} {}: a shortest way to break {}\n{}\n",
+                    "\n{} {}: a {way} way to break {}\n{}\n",
                     run.layer, run.name, trace.clause, trace.text
                 ),
             );

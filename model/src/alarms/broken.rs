@@ -109,6 +109,10 @@ impl Semantics for Broken {
         self.core.mutations(state, self.flaw.identity(replica))
     }
 
+    fn allows(&self, state: &State, replica: usize, mutation: &Act) -> bool {
+        self.core.allows(state, self.flaw.identity(replica), mutation)
+    }
+
     fn mutate(&self, state: &State, replica: usize, mutation: &Act) -> Option<Step<Self>> {
         let author = Author::new(replica_id(self.flaw.identity(replica)));
         let before = view(state, &self.core.dictionary);
@@ -127,6 +131,27 @@ impl Semantics for Broken {
 
     fn join_states(&self, left: &State, right: &State) -> Option<State> {
         Some(self.joined(left, right))
+    }
+
+    fn join_deltas(&self, left: &Delta, right: &Delta) -> Option<Delta> {
+        Some(self.joined(left, right))
+    }
+
+    fn readdressed(&self, mutation: &Act, made: &[(Delta, Delta)]) -> Option<Act> {
+        self.core.readdressed(mutation, made)
+    }
+
+    fn simpler(&self, mutation: &Act) -> Vec<Act> {
+        self.core.simpler(mutation)
+    }
+
+    fn simpler_together(&self, mutations: &[Act]) -> Vec<Vec<Act>> {
+        self.core.simpler_together(mutations)
+    }
+
+    fn simpler_initial(&self) -> Vec<Self> {
+        let cores = self.core.simpler_initial().into_iter();
+        cores.map(|core| Self { core, ..self.clone() }).collect()
     }
 
     /// The predicates of the core on the state, and on what is shown of it, by each of two replicas; equal
@@ -228,10 +253,6 @@ impl Semantics for Broken {
 
     fn delta_text(&self, delta: &Delta) -> String {
         self.core.delta_text(delta)
-    }
-
-    fn join_deltas(&self, left: &Delta, right: &Delta) -> Option<Delta> {
-        self.core.join_deltas(left, right)
     }
 
     fn claims(&self, delta: &Delta, target: &Target) -> Vec<Claim> {

@@ -3,7 +3,9 @@
 pub mod alphabet;
 mod explain;
 mod intent;
+mod readdress;
 mod renaming;
+mod simpler;
 mod timeless;
 mod words;
 
@@ -159,6 +161,11 @@ impl Semantics for Checked {
         self.alphabet.enabled(&view(state, &self.dictionary), replica).into_iter().map(Act).collect()
     }
 
+    /// The alphabet is a sample; the core refuses what must not be done.
+    fn allows(&self, _: &State, _: usize, _: &Act) -> bool {
+        true
+    }
+
     fn mutate(&self, state: &State, replica: usize, mutation: &Act) -> Option<Step<Self>> {
         let author = Author::new(replica_id(replica));
         let delta = mutation.0.delta(&view(state, &self.dictionary), author).ok()?;
@@ -197,6 +204,29 @@ impl Semantics for Checked {
 
     fn join_states(&self, left: &State, right: &State) -> Option<State> {
         Some(left.joined(right))
+    }
+
+    fn join_deltas(&self, left: &Delta, right: &Delta) -> Option<Delta> {
+        Some(left.joined(right))
+    }
+
+    fn readdressed(&self, mutation: &Act, made: &[(Delta, Delta)]) -> Option<Act> {
+        readdress::mutation(&mutation.0, &self.initial, made).map(Act)
+    }
+
+    fn simpler(&self, mutation: &Act) -> Vec<Act> {
+        simpler::mutations(&mutation.0, &self.alphabet.focus).into_iter().map(Act).collect()
+    }
+
+    fn simpler_together(&self, mutations: &[Act]) -> Vec<Vec<Act>> {
+        let mutations: Vec<&Mutation> = mutations.iter().map(|act| &act.0).collect();
+        let together = simpler::about_older(&mutations, &self.alphabet.focus).into_iter();
+        together.map(|mutations| mutations.into_iter().map(Act).collect()).collect()
+    }
+
+    fn simpler_initial(&self) -> Vec<Self> {
+        let smaller = simpler::initial(&self.initial, &self.dictionary).into_iter();
+        smaller.map(|initial| Self { initial, ..self.clone() }).collect()
     }
 
     fn stamp(&self, delta: &Delta) -> Option<u64> {
@@ -293,10 +323,6 @@ impl Semantics for Checked {
 
     fn delta_text(&self, delta: &Delta) -> String {
         words::delta(delta)
-    }
-
-    fn join_deltas(&self, left: &Delta, right: &Delta) -> Option<Delta> {
-        Some(left.joined(right))
     }
 
     fn claims(&self, delta: &Delta, target: &Target) -> Vec<Claim> {

@@ -114,7 +114,7 @@ impl<S: Semantics> Writer<'_, S> {
 
     /// A replica answers another's digest.
     fn answer(&mut self, replica: usize, to: usize) -> Result<(), CannotHappen> {
-        let message = self.recorder.messages().len();
+        let message = self.recorder.runner().messages().len();
         self.recorder.record(&Event::Answer { replica, to })?;
         self.recorder.record(&Event::Deliver { replica: to, message })
     }

@@ -50,10 +50,10 @@ impl<'s, S: Semantics> Ends<'s, S> {
         self.shown.clear();
         self.before = recorder.states().get(event.replica()).cloned();
         if let (Event::Mutate { replica, mutations }, Some(state)) = (event, self.before.clone()) {
-            self.judge_steps(state, *replica, recorder.identity(*replica), mutations);
+            self.judge_steps(state, *replica, recorder, mutations);
         }
         if let (Event::Answer { .. }, Some(state)) = (event, self.before.clone()) {
-            self.answers.push((recorder.messages().len(), state));
+            self.answers.push((recorder.runner().messages().len(), state));
         }
     }
 
@@ -61,9 +61,10 @@ impl<'s, S: Semantics> Ends<'s, S> {
         &mut self,
         mut state: S::State,
         replica: usize,
-        identity: usize,
+        recorder: &Recorder<'_, S>,
         mutations: &[S::Mutation],
     ) {
+        let Ok(identity) = recorder.runner().identity(replica) else { return };
         for mutation in mutations {
             let Some(step) = self.semantics.mutate(&state, identity, mutation) else { return };
             let judged = self.semantics.judge_step(&state, identity, mutation, &step);
@@ -81,7 +82,7 @@ impl<'s, S: Semantics> Ends<'s, S> {
         };
         match event {
             Event::Mutate { .. } => {
-                self.received[replica].insert(recorder.messages().len().saturating_sub(1));
+                self.received[replica].insert(recorder.runner().messages().len().saturating_sub(1));
             }
             Event::Deliver { message, .. } => {
                 let mut broken: Vec<Breach> =
@@ -149,7 +150,7 @@ impl<'s, S: Semantics> Ends<'s, S> {
         }));
         let is_answer = |message: &usize| self.answers.iter().any(|(answer, _)| answer == message);
         let sent: BTreeSet<usize> =
-            (0..recorder.messages().len()).filter(|message| !is_answer(message)).collect();
+            (0..recorder.runner().messages().len()).filter(|message| !is_answer(message)).collect();
         let has_all = |&replica: &usize| sent.is_subset(&self.received[replica]);
         for left in 0..states.len() {
             let alike = |&right: &usize| self.received[left] == self.received[right];

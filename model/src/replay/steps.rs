@@ -71,7 +71,10 @@ impl<'s, S: Semantics> Replay<'s, S> {
     fn run(&mut self, written: &TraceStep) -> Result<(), CannotHappen> {
         let replica = self.position(&written.replica);
         let event = match &written.does {
-            Act::Happen { text } => return self.recorder.happen(replica, text.clone()),
+            Act::Happen { text } => {
+                self.recorder.happen(replica, text.clone());
+                return Ok(());
+            }
             Act::Mutate { mutations, .. } => {
                 Event::Mutate { replica, mutations: self.mutations(replica, mutations)? }
             }
@@ -97,7 +100,7 @@ impl<'s, S: Semantics> Replay<'s, S> {
 
     /// Each mutation is read in the state that the ones before it lead to.
     fn mutations(&self, replica: usize, written: &[Value]) -> Result<Vec<S::Mutation>, CannotHappen> {
-        let identity = self.recorder.identity(replica);
+        let identity = self.recorder.runner().identity(replica)?;
         let mut state = self.recorder.states()[replica].clone();
         let mut mutations = Vec::new();
         for json in written {

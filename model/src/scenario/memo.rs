@@ -83,7 +83,7 @@ fn fingerprint(state: &State) -> u64 {
 #[derive(Debug)]
 pub(super) struct Memo<S> {
     pub(super) scenario: Arc<Scenario>,
-    pub(super) semantics: S,
+    pub(super) semantics: Arc<S>,
     alphabets: Vec<Option<Checked>>,
     states: Vec<Arc<State>>,
     answers: Vec<Answers>,
@@ -118,7 +118,7 @@ impl<S: Replicated> Memo<S> {
             taken: scenario.replicas.iter().map(|replica| vec![false; steps(&replica.conduct)]).collect(),
             decided: vec![false; scenario.properties.len()],
             scenario,
-            semantics,
+            semantics: Arc::new(semantics),
             states: Vec::new(),
             answers: Vec::new(),
             by_fingerprint: FxHashMap::default(),

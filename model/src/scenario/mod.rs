@@ -30,11 +30,13 @@
 //! | `space`, `judge` | histories and their successors; every delivered subset and diamond |
 //! | `model`, `explore` | the search by stateright, and the report |
 //! | `shortest`, `trace` | a second search, breadth first: counterexamples and witnesses |
+//! | `reduce`, `follow` | what they found without what it does not need; whether that is a run of the scenario |
 
 mod atom;
 mod cursor;
 mod error;
 mod explore;
+mod follow;
 mod format;
 mod judge;
 mod memo;
@@ -43,6 +45,7 @@ mod mutation;
 mod pattern;
 mod predicate;
 mod property;
+mod reduce;
 mod report;
 mod scope;
 mod script;

@@ -4,8 +4,9 @@
 
 use super::explore::Replicated;
 use super::memo::{DeltaId, MoveKind};
+use super::reduce::{Finding, reduced};
 use super::space::{Broken, Choice, Node, SUBSET_DELTAS_MAX, Space, subset};
-use super::trace::{Last, Trace, tell};
+use super::trace::{Last, Trace};
 use rustc_hash::FxHashMap;
 use std::collections::VecDeque;
 
@@ -98,7 +99,8 @@ impl<'s, S: Replicated> Shortest<'s, S> {
             let decided = this.decided_at(at, &wanted);
             for (property, last) in decided {
                 wanted.retain(|known| *known != property);
-                traces.push((property, tell(this.space, &this.way(at), last)));
+                let way = this.way(at);
+                traces.push((property, reduced(this.space, &way, last, Finding::Property(property))));
             }
             wanted.is_empty()
         });
@@ -160,7 +162,10 @@ impl<'s, S: Replicated> Shortest<'s, S> {
                 }
                 this.space.states_of(&node.pool).err()
             });
-            trace = broken.map(|broken| tell(this.space, &this.way(at), Last::Broken(broken)));
+            trace = broken.map(|broken| {
+                let (way, finding) = (this.way(at), Finding::Breach(broken.breach.clause));
+                reduced(this.space, &way, Last::Broken(broken), finding)
+            });
             trace.is_some()
         });
         trace

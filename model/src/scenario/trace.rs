@@ -16,8 +16,29 @@ use std::fmt;
 pub struct Trace {
     /// How many of the steps mutate; no trace to the same finding has fewer.
     pub mutations: usize,
+    /// How many deliveries and other steps the search met on its way that the finding does not need, and that are
+    /// left out. `[spec: CHECK-14]`
+    #[serde(skip_serializing_if = "is_nought")]
+    pub left_out: usize,
     /// What happened, in order.
     pub steps: Vec<ScenarioStep>,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_nought(count: &usize) -> bool {
+    *count == 0
+}
+
+impl Trace {
+    /// How many things happen in it: deliveries one by one, mutations, and steps without one.
+    pub(super) fn happenings(&self) -> usize {
+        let counts = self.steps.iter().map(|step| match step {
+            ScenarioStep::Receive { deltas, .. } => deltas.len(),
+            ScenarioStep::Mutate { .. } | ScenarioStep::Go { .. } => 1,
+            ScenarioStep::See { .. } | ScenarioStep::Break { .. } => 0,
+        });
+        counts.sum()
+    }
 }
 
 /// One step of a trace.
@@ -97,7 +118,7 @@ pub(super) fn tell<S: Replicated>(space: &Space<S>, way: &[Choice], last: Last) 
         Last::Broken(broken) => teller.broken(broken),
     }
     let mutations = teller.steps.iter().filter(|step| matches!(step, ScenarioStep::Mutate { .. })).count();
-    Trace { mutations, steps: teller.steps }
+    Trace { mutations, left_out: 0, steps: teller.steps }
 }
 
 const READER: &str = "a reader";
@@ -210,7 +231,12 @@ fn json(value: &impl Serialize) -> Json {
 /// One line for each step.
 impl fmt::Display for Trace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.steps.iter().enumerate().try_for_each(|(at, step)| writeln!(f, "{:>3}. {step}", at + 1))
+        self.steps.iter().enumerate().try_for_each(|(at, step)| writeln!(f, "{:>3}. {step}", at + 1))?;
+        match self.left_out {
+            0 => Ok(()),
+            1 => writeln!(f, "     (1 step left out that this does not need)"),
+            count => writeln!(f, "     ({count} steps left out that this does not need)"),
+        }
     }
 }
 

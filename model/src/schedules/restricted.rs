@@ -72,6 +72,27 @@ impl<S: Semantics> Semantics for Restricted<S> {
         self.whole.join_states(left, right)
     }
 
+    fn join_deltas(&self, left: &S::Delta, right: &S::Delta) -> Option<S::Delta> {
+        self.whole.join_deltas(left, right)
+    }
+
+    fn readdressed(&self, mutation: &S::Mutation, made: &[(S::Delta, S::Delta)]) -> Option<S::Mutation> {
+        self.whole.readdressed(mutation, made)
+    }
+
+    fn simpler(&self, mutation: &S::Mutation) -> Vec<S::Mutation> {
+        self.whole.simpler(mutation)
+    }
+
+    fn simpler_together(&self, mutations: &[S::Mutation]) -> Vec<Vec<S::Mutation>> {
+        self.whole.simpler_together(mutations)
+    }
+
+    fn simpler_initial(&self) -> Vec<Self> {
+        let wholes = self.whole.simpler_initial().into_iter();
+        wholes.map(|whole| Self { whole: Arc::new(whole), mutations: self.mutations.clone() }).collect()
+    }
+
     fn judge(&self, state: &S::State) -> Result<Judged, Breach> {
         self.whole.judge(state)
     }
@@ -136,10 +157,6 @@ impl<S: Semantics> Semantics for Restricted<S> {
 
     fn delta_text(&self, delta: &S::Delta) -> String {
         self.whole.delta_text(delta)
-    }
-
-    fn join_deltas(&self, left: &S::Delta, right: &S::Delta) -> Option<S::Delta> {
-        self.whole.join_deltas(left, right)
     }
 
     fn claims(&self, delta: &S::Delta, target: &Target) -> Vec<Claim> {

@@ -47,7 +47,7 @@ impl<S: Semantics> Writer<'_, S> {
         before: &Schedule,
         event: &Event,
     ) -> Result<course::Event<S::Mutation>, CannotHappen> {
-        let next = self.recorder.messages().len();
+        let next = self.recorder.runner().messages().len();
         Ok(match *event {
             Event::Mutate { replica, delta } => {
                 self.broadcasts.push((replica, before.made(replica), next));
@@ -87,7 +87,13 @@ impl<S: Semantics> Writer<'_, S> {
                 let (to, delta) = before.answers[at];
                 let delta = self.schedules.tables().delta(delta);
                 let is_it = |&(receiver, number): &(usize, usize)| {
-                    receiver == usize::from(to) && self.recorder.messages().get(number) == Some(&*delta)
+                    receiver == usize::from(to)
+                        && self
+                            .recorder
+                            .runner()
+                            .messages()
+                            .get(number)
+                            .is_some_and(|sent| sent.deltas[..] == [(*delta).clone()])
                 };
                 let Some(at) = self.answers.iter().position(is_it) else { return usize::MAX };
                 if is_last { self.answers.remove(at).1 } else { self.answers[at].1 }
@@ -104,7 +110,10 @@ impl<S: Semantics> Writer<'_, S> {
         let mut deliveries = Vec::new();
         for (replica, end) in ends.iter_mut().enumerate() {
             for &message in &broadcasts {
-                let after = semantics.join(end, &self.recorder.messages()[message]);
+                let after = semantics.join_all(
+                    end,
+                    &self.recorder.runner().messages()[message].deltas.iter().collect::<Vec<_>>(),
+                );
                 if after != *end {
                     deliveries.push(course::Event::Deliver { replica, message });
                     let broken =
@@ -126,7 +135,7 @@ impl<S: Semantics> Writer<'_, S> {
         let asks = (1..ends.len()).map(|replica| (replica, 0));
         let tells = (1..ends.len()).map(|replica| (0, replica));
         for (replica, to) in asks.chain(tells) {
-            let message = self.recorder.messages().len();
+            let message = self.recorder.runner().messages().len();
             self.recorder.record(&course::Event::Answer { replica, to })?;
             self.recorder.record(&course::Event::Deliver { replica: to, message })?;
         }

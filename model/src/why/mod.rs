@@ -94,11 +94,13 @@ pub fn why_with<S: Semantics>(
         held.push(semantics.claims_held(&run.recorder.states()[replica], target));
     }
     let state = &run.recorder.states()[replica];
+    let sent = run.recorder.runner().messages();
+    let claims = |delta: &S::Delta| semantics.claims(delta, target);
     let messages: Vec<Vec<Claim>> =
-        run.recorder.messages().iter().map(|delta| semantics.claims(delta, target)).collect();
+        sent.iter().map(|message| message.deltas.iter().flat_map(claims).collect()).collect();
     let ends = |message: usize, claim: &Claim| {
-        let delta = run.recorder.messages().get(message);
-        delta.is_some_and(|delta| semantics.ends(delta, claim))
+        let deltas = sent.get(message).map(|message| &message.deltas);
+        deltas.is_some_and(|deltas| deltas.iter().any(|delta| semantics.ends(delta, claim)))
     };
     let standing = |claim: &Claim| semantics.standing(state, target, claim);
     tell(trace, step, replica, target, Evidence { held, messages, ends: &ends, standing: &standing })

@@ -1,5 +1,21 @@
 //! A course: what replicas do and what the network does, in order, for any semantics. It says nothing of
-//! outcomes; whoever runs it sees them.
+//! outcomes; whoever runs it sees them. `[spec: CHECK-13]`
+//!
+//! | room | what |
+//! |---|---|
+//! | `runner` | carries out a course, event by event; refuses what cannot happen |
+//! | `judge` | the same, and judges each event as L2 does |
+//! | `tell` | a course as plain lines and as JSON |
+
+mod judge;
+mod runner;
+mod tell;
+#[cfg(test)]
+mod tests;
+
+pub use judge::{Broken, Judge, Moment, Outcome, Stop, run};
+pub use runner::{Local, Message, Runner, StepError, Stepped};
+pub use tell::{json, lines};
 
 /// A course of events among replicas that all start alike.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -49,6 +65,22 @@ pub enum Event<M> {
         /// Whom it answers.
         to: usize,
     },
+}
+
+impl<M> Course<M> {
+    /// Replicas `r1`, `r2`, … to whom nothing has happened.
+    pub fn among(replicas: usize) -> Self {
+        Self { replicas: (1..=replicas).map(|number| format!("r{number}")).collect(), events: Vec::new() }
+    }
+
+    /// How many mutations are made, those of groups one by one.
+    pub fn mutations(&self) -> usize {
+        let made = self.events.iter().map(|event| match event {
+            Event::Mutate { mutations, .. } => mutations.len(),
+            _ => 0,
+        });
+        made.sum()
+    }
 }
 
 impl<M> Event<M> {
