@@ -4,12 +4,16 @@
 //! |---|---|
 //! | `scribe` | writes down what replicas do and show |
 //! | `record` | runs a [course](crate::course) and has it written down |
+//! | `of_course`, `rest` | the trace of a course that was run; what is judged of the moment after it |
 //! | `read` | reads a trace back and refuses what is none |
 
+mod of_course;
 mod read;
 mod record;
+mod rest;
 mod scribe;
 
+pub use of_course::of_course;
 pub use read::{TraceError, Unsound};
 pub use record::{CannotHappen, Part, Recorder};
 pub use scribe::{Heading, Scribe, message_name};

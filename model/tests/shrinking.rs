@@ -3,9 +3,10 @@
 use dsr_core::{EdgeKey, ElementId, Mutation, MutationKind, NewVertex, Value, VertexId, VertexLink};
 use dsr_model::alarms::{A, Alarm, B, Broken, all, run_alarm, subject};
 use dsr_model::checked::{Act, Checked};
-use dsr_model::course::{Course, Event, Outcome, lines, run};
+use dsr_model::course::{Course, Event, Outcome, run};
 use dsr_model::semantics::Semantics;
 use dsr_model::shrink::{Reduction, Shrinker, breaks_as, neighbours, shrink};
+use dsr_model::trace::of_course;
 use dsr_model::walks::{Faults, Walk, WalkFinding, find};
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
@@ -299,9 +300,10 @@ fn canary_a_course_that_cannot_happen_is_not_shrunk() {
     assert!(fewer.iter().all(|(_, course)| run(&*semantics, course, true) == Outcome::Held));
 }
 
-/// A shown course is told line by line.
+/// A course that was run is written down event by event, and replays.
+/// `[spec: TRACE-1]` `[spec: TRACE-6]`
 #[test]
-fn conform_a_course_in_plain_lines() {
+fn conform_a_course_as_a_trace() {
     let semantics = subject(&MutationKind::ALL, &[A, B]);
     let events = vec![
         add("first"),
@@ -311,16 +313,18 @@ fn conform_a_course_in_plain_lines() {
         Event::Lose { replica: 1, message: 1 },
     ];
     let course = Course { events, ..Course::among(2) };
-    let told = lines(&course, &run(&semantics, &course, true));
+    let outcome = run(&semantics, &course, true);
+    let trace = of_course(&semantics, &course, &outcome, &[], ("L3", "made up".into())).unwrap();
+    let told: Vec<String> =
+        trace.steps.iter().map(|step| format!("{}: {}", step.replica, step.does)).collect();
     let expected = [
-        "  1  r1   add_vertex root -RT-> \"first\"  → m1",
-        "  2  r2   receives m1",
-        "  3  r2   restarts without its state",
-        "  4  r1   answers r2's digest  → m2",
-        "  5  r2   will not receive m2",
-        "     all holds",
+        "r1: add_vertex root -RT-> \"first\"  → m1",
+        "r2: receives m1",
+        "r2: restarts without its state",
+        "r1: sends r2 what it lacks  → m2",
+        "r2: never receives m2",
     ];
-    assert_eq!(told, expected);
+    assert_eq!((told, trace.finding.detail.as_str()), (expected.map(str::to_owned).to_vec(), "all holds"));
     let outcome = run(&semantics, &Course { events: vec![add("a")], ..Course::among(1) }, true);
     assert!(matches!(&outcome, Outcome::Invalid { at: 0, .. }), "{outcome}");
     assert!(outcome.to_string().contains("refused"), "{outcome}");

@@ -122,7 +122,9 @@ impl<'s, S: Semantics> Judge<'s, S> {
         let identity = self.runner.identity(event.replica());
         let stepped = self.runner.step(event).map_err(Stop::Impossible)?;
         let judged = match (event, identity) {
-            (Event::Mutate { mutations, .. }, Ok(identity)) => self.made(identity, mutations, &stepped),
+            (Event::Mutate { mutations, .. }, Ok(identity)) => {
+                judge_mutations(self.runner.semantics(), identity, mutations, &stepped)
+            }
             _ => Ok(()),
         };
         let judged = judged.and_then(|()| self.change(&stepped.before, &stepped.after, event));
@@ -130,25 +132,6 @@ impl<'s, S: Semantics> Judge<'s, S> {
         judged.map_err(|breach| Stop::Broken(Broken { at, replica, breach }))?;
         self.events += 1;
         Ok(stepped)
-    }
-
-    /// Judges mutations one by one, and that a group is what its message makes of the state before it.
-    /// `[property: MUT-0]` `[property: MUT-0.4]`
-    fn made(&self, identity: usize, mutations: &[S::Mutation], stepped: &Stepped<S>) -> Result<(), Breach> {
-        let semantics = self.runner.semantics();
-        for (mutation, local) in mutations.iter().zip(&stepped.locals) {
-            semantics.judge_step(&local.before, identity, mutation, &local.step)?;
-            if semantics.join(&local.before, &local.step.delta) != local.step.after {
-                let wrong = "the author's state is not its old state joined with the delta";
-                return Err(Breach::new("MUT-0", wrong));
-            }
-        }
-        match stepped.locals.last() {
-            Some(last) if last.step.after != stepped.after => {
-                Err(Breach::new("MUT-0.4", "a group of mutations is not the join of its deltas"))
-            }
-            _ => Ok(()),
-        }
     }
 
     /// Judges what an event did to its replica. Who loses its state at a restart starts anew: nothing grows.
@@ -227,5 +210,28 @@ impl<'s, S: Semantics> Judge<'s, S> {
             self.state(&after)?;
         }
         Ok(after)
+    }
+}
+
+/// Judges mutations one by one, and that a group is what its message makes of the state before it.
+/// `[property: MUT-0]` `[property: MUT-0.4]`
+pub fn judge_mutations<S: Semantics>(
+    semantics: &S,
+    identity: usize,
+    mutations: &[S::Mutation],
+    stepped: &Stepped<S>,
+) -> Result<(), Breach> {
+    for (mutation, local) in mutations.iter().zip(&stepped.locals) {
+        semantics.judge_step(&local.before, identity, mutation, &local.step)?;
+        if semantics.join(&local.before, &local.step.delta) != local.step.after {
+            let wrong = "the author's state is not its old state joined with the delta";
+            return Err(Breach::new("MUT-0", wrong));
+        }
+    }
+    match stepped.locals.last() {
+        Some(last) if last.step.after != stepped.after => {
+            Err(Breach::new("MUT-0.4", "a group of mutations is not the join of its deltas"))
+        }
+        _ => Ok(()),
     }
 }

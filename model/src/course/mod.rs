@@ -5,17 +5,14 @@
 //! |---|---|
 //! | `runner` | carries out a course, event by event; refuses what cannot happen |
 //! | `judge` | the same, and judges each event as L2 does |
-//! | `tell` | a course as plain lines and as JSON |
 
 mod judge;
 mod runner;
-mod tell;
 #[cfg(test)]
 mod tests;
 
-pub use judge::{Broken, Judge, Moment, Outcome, Stop, run};
+pub use judge::{Broken, Judge, Moment, Outcome, Stop, judge_mutations, run};
 pub use runner::{Local, Message, Runner, StepError, Stepped};
-pub use tell::{json, lines};
 
 /// A course of events among replicas that all start alike.
 #[derive(Clone, PartialEq, Eq, Debug)]

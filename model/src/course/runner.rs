@@ -185,7 +185,8 @@ impl<'s, S: Semantics> Runner<'s, S> {
         }
     }
 
-    /// Whether a message can still arrive at a replica.
+    /// Whether the network can still bring a message to a replica. It brings nobody's own: see
+    /// [`give_back`](Self::give_back).
     pub fn can_arrive(&self, message: usize, replica: usize) -> Result<(), StepError> {
         self.state(replica)?;
         let sent =
@@ -214,8 +215,7 @@ impl<'s, S: Semantics> Runner<'s, S> {
             }
             Event::Deliver { message, .. } => {
                 self.can_arrive(*message, replica)?;
-                let deltas: Vec<&S::Delta> = self.messages[*message].deltas.iter().collect();
-                self.semantics.join_all(&before, &deltas)
+                self.joined_with(&before, *message)
             }
             Event::Lose { message, .. } => {
                 self.can_arrive(*message, replica)?;
@@ -238,6 +238,20 @@ impl<'s, S: Semantics> Runner<'s, S> {
         };
         self.states[replica].clone_from(&after);
         Ok(Stepped { replica, before, after, sent, locals })
+    }
+
+    /// Gives a replica a message of its own, as who has lost its state may need it.
+    pub fn give_back(&mut self, message: usize) -> Result<Stepped<S>, StepError> {
+        let sent = self.messages.len();
+        let replica = self.messages.get(message).ok_or(StepError::NotSent { message, sent })?.sender;
+        let before = self.states[replica].clone();
+        let after = self.joined_with(&before, message);
+        self.states[replica].clone_from(&after);
+        Ok(Stepped { replica, before, after, sent: None, locals: Vec::new() })
+    }
+
+    fn joined_with(&self, state: &S::State, message: usize) -> S::State {
+        self.semantics.join_all(state, &self.messages[message].deltas.iter().collect::<Vec<_>>())
     }
 
     /// Mutations one after the other.

@@ -1,8 +1,8 @@
 //! What is broken after the last step of a course.
 
 use super::ReplayError;
-use crate::course::Event;
-use crate::semantics::{Breach, Semantics, Step};
+use crate::course::{Event, Stepped, judge_mutations};
+use crate::semantics::{Breach, Semantics};
 use crate::trace::{Finding, FindingKind, Recorder};
 use std::collections::BTreeSet;
 
@@ -25,7 +25,6 @@ pub struct Ends<'s, S: Semantics> {
     received: Vec<BTreeSet<usize>>,
     /// What an answer was made from, by message.
     answers: Vec<(usize, S::State)>,
-    before: Option<S::State>,
     shown: Vec<Shown>,
 }
 
@@ -42,64 +41,36 @@ impl<'s, S: Semantics> Ends<'s, S> {
     /// Before the first event.
     pub fn new(semantics: &'s S, replicas: usize) -> Self {
         let received = vec![BTreeSet::new(); replicas];
-        Self { semantics, received, answers: Vec::new(), before: None, shown: Vec::new() }
+        Self { semantics, received, answers: Vec::new(), shown: Vec::new() }
     }
 
-    /// An event is about to happen.
-    pub fn before(&mut self, recorder: &Recorder<'_, S>, event: &Event<S::Mutation>) {
-        self.shown.clear();
-        self.before = recorder.states().get(event.replica()).cloned();
-        if let (Event::Mutate { replica, mutations }, Some(state)) = (event, self.before.clone()) {
-            self.judge_steps(state, *replica, recorder, mutations);
-        }
-        if let (Event::Answer { .. }, Some(state)) = (event, self.before.clone()) {
-            self.answers.push((recorder.runner().messages().len(), state));
-        }
-    }
-
-    fn judge_steps(
-        &mut self,
-        mut state: S::State,
-        replica: usize,
-        recorder: &Recorder<'_, S>,
-        mutations: &[S::Mutation],
-    ) {
-        let Ok(identity) = recorder.runner().identity(replica) else { return };
-        for mutation in mutations {
-            let Some(step) = self.semantics.mutate(&state, identity, mutation) else { return };
-            let judged = self.semantics.judge_step(&state, identity, mutation, &step);
-            self.shown.extend(judged.err().map(|breach| Shown { breach, by: vec![replica] }));
-            let Step { after, .. } = step;
-            state = after;
-        }
-    }
-
-    /// It has happened.
-    pub fn after(&mut self, recorder: &Recorder<'_, S>, event: &Event<S::Mutation>) {
-        let replica = event.replica();
-        let (Some(before), Some(after)) = (self.before.take(), recorder.states().get(replica)) else {
-            return;
-        };
+    /// An event has happened; `identity` is the index by which its replica mutated.
+    pub fn note(&mut self, event: &Event<S::Mutation>, identity: Option<usize>, stepped: &Stepped<S>) {
+        let Stepped { replica, before, after, sent, .. } = stepped;
+        let mut broken: Vec<Breach> = Vec::new();
         match event {
-            Event::Mutate { .. } => {
-                self.received[replica].insert(recorder.runner().messages().len().saturating_sub(1));
+            Event::Mutate { mutations, .. } => {
+                self.received[*replica].extend(sent);
+                let judged = identity.map(|by| judge_mutations(self.semantics, by, mutations, stepped));
+                broken.extend(judged.and_then(Result::err));
+                broken.extend(self.semantics.judge_delivery(before, after).err());
             }
             Event::Deliver { message, .. } => {
-                let mut broken: Vec<Breach> =
-                    self.semantics.judge_delivery(&before, after).err().into_iter().collect();
-                if !self.received[replica].insert(*message) && before != *after {
+                broken.extend(self.semantics.judge_delivery(before, after).err());
+                if !self.received[*replica].insert(*message) && before != after {
                     broken.push(Breach::new("JOIN-3", TWICE));
                 }
                 let made_from = self.answers.iter().find(|(answer, _)| answer == message);
-                let joined = made_from.and_then(|(_, ours)| self.semantics.join_states(&before, ours));
+                let joined = made_from.and_then(|(_, ours)| self.semantics.join_states(before, ours));
                 if joined.is_some_and(|joined| joined != *after) {
                     broken.push(Breach::new("SYNC-3", NOT_THE_JOIN));
                 }
-                self.shown.extend(broken.into_iter().map(|breach| Shown { breach, by: vec![replica] }));
             }
-            Event::Restart { keeps: false, .. } => self.received[replica].clear(),
-            _ => {}
+            Event::Answer { .. } => self.answers.extend(sent.map(|message| (message, before.clone()))),
+            Event::Restart { keeps: false, .. } => self.received[*replica].clear(),
+            Event::Restart { .. } | Event::Lose { .. } => {}
         }
+        self.shown = broken.into_iter().map(|breach| Shown { breach, by: vec![*replica] }).collect();
     }
 
     /// Whether what is found is so: `Ok(Err(why))` if that cannot be judged from a course.

@@ -83,9 +83,9 @@ impl<'s, S: Semantics> Replay<'s, S> {
             Act::Restart { keeps } => Event::Restart { replica, keeps: *keeps },
             Act::Answer { to, .. } => Event::Answer { replica, to: self.position(to) },
         };
-        self.ends.before(&self.recorder, &event);
-        self.recorder.record(&event)?;
-        self.ends.after(&self.recorder, &event);
+        let identity = self.recorder.runner().identity(replica).ok();
+        let stepped = self.recorder.step(&event)?;
+        self.ends.note(&event, identity, &stepped);
         Ok(())
     }
 

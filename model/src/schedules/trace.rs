@@ -24,8 +24,11 @@ pub(super) fn write<S: Semantics>(
         let event = writer.event(before, event)?;
         writer.recorder.record(&event)?;
     }
-    let at: Vec<usize> =
-        if let Some(event) = &found.fault.event { vec![event.replica()] } else { writer.come_to_rest()? };
+    let at: Vec<usize> = if let Some(event) = &found.fault.event {
+        vec![event.replica()]
+    } else {
+        writer.recorder.come_to_rest()?
+    };
     let shown_by = writer.recorder.scribe().names(at);
     let finding = Finding::broken(clauses, &found.fault.breach, shown_by);
     let title = format!("{} is broken: {}", finding.clause, finding.what);
@@ -99,46 +102,5 @@ impl<S: Semantics> Writer<'_, S> {
                 if is_last { self.answers.remove(at).1 } else { self.answers[at].1 }
             }
         }
-    }
-
-    /// Delivers everything to everybody; if that makes all equal, it was resynchronisation that did not, and
-    /// is recorded instead. Who shows what is broken. `[spec: JOIN-5]` `[spec: SYNC-5]`
-    fn come_to_rest(&mut self) -> Result<Vec<usize>, CannotHappen> {
-        let semantics = self.schedules.semantics.clone();
-        let broadcasts: Vec<usize> = self.broadcasts.iter().map(|(_, _, number)| *number).collect();
-        let mut ends = self.recorder.states().to_vec();
-        let mut deliveries = Vec::new();
-        for (replica, end) in ends.iter_mut().enumerate() {
-            for &message in &broadcasts {
-                let after = semantics.join_all(
-                    end,
-                    &self.recorder.runner().messages()[message].deltas.iter().collect::<Vec<_>>(),
-                );
-                if after != *end {
-                    deliveries.push(course::Event::Deliver { replica, message });
-                    let broken =
-                        semantics.judge_delivery(end, &after).is_err() || semantics.judge(&after).is_err();
-                    *end = after;
-                    if broken {
-                        let mut own = deliveries.iter().filter(|event| event.replica() == replica);
-                        own.try_for_each(|event| self.recorder.record(event))?;
-                        return Ok(vec![replica]);
-                    }
-                }
-            }
-        }
-        let everybody = (0..ends.len()).collect();
-        if ends.iter().any(|end| *end != ends[0]) {
-            deliveries.iter().try_for_each(|event| self.recorder.record(event))?;
-            return Ok(everybody);
-        }
-        let asks = (1..ends.len()).map(|replica| (replica, 0));
-        let tells = (1..ends.len()).map(|replica| (0, replica));
-        for (replica, to) in asks.chain(tells) {
-            let message = self.recorder.runner().messages().len();
-            self.recorder.record(&course::Event::Answer { replica, to })?;
-            self.recorder.record(&course::Event::Deliver { replica: to, message })?;
-        }
-        Ok(everybody)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::scribe::{Heading, Scribe, message_name};
 use super::{Act, Finding, Sent, Trace, TraceReplica};
-use crate::course::{Event, Runner, StepError};
+use crate::course::{Event, Runner, StepError, Stepped};
 use crate::semantics::Semantics;
 use serde_json::Value;
 
@@ -79,7 +79,18 @@ impl<'s, S: Semantics> Recorder<'s, S> {
 
     /// Makes an event happen, and writes it down. What cannot happen changes nothing.
     pub fn record(&mut self, event: &Event<S::Mutation>) -> Result<(), CannotHappen> {
-        let stepped = self.runner.step(event)?;
+        self.step(event).map(|_| ())
+    }
+
+    /// The same; what the event did.
+    pub fn step(&mut self, event: &Event<S::Mutation>) -> Result<Stepped<S>, CannotHappen> {
+        let own = |message: &usize| {
+            self.runner.messages().get(*message).is_some_and(|sent| sent.sender == event.replica())
+        };
+        let stepped = match event {
+            Event::Deliver { message, .. } if own(message) => self.runner.give_back(*message)?,
+            _ => self.runner.step(event)?,
+        };
         let semantics = self.runner.semantics();
         let sends = stepped.sent.map(|message| self.send(message)).into_iter().collect();
         let does = match event {
@@ -96,7 +107,7 @@ impl<'s, S: Semantics> Recorder<'s, S> {
             Event::Answer { to, .. } => Act::Answer { to: self.scribe.name(*to).to_owned(), sends },
         };
         self.note(stepped.replica, does);
-        Ok(())
+        Ok(stepped)
     }
 
     /// Writes down something else, which changes nothing.

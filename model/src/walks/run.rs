@@ -1,11 +1,12 @@
 //! Many walks and their report. `[spec: CHECK-13]` `[spec: CHECK-1]`
 
 use super::{Counts, Walk, Walked};
-use crate::course::{self, Course, Outcome, lines};
+use crate::course::{self, Course, Outcome};
 use crate::progress::Progress;
 use crate::semantics::{Clause, Semantics};
 use crate::shrink::{Shrinker, Shrunk, TRIES_MAX, breaks_as};
-use crate::verdict::{Evidence, PropertyKind, PropertyReport, RunReport, RunTrace, StateCounts, Verdict};
+use crate::trace::{CannotHappen, Trace, of_course};
+use crate::verdict::{Evidence, PropertyKind, PropertyReport, RunReport, StateCounts, Verdict};
 use std::sync::Arc;
 
 /// What is judged besides what the semantics judges.
@@ -46,6 +47,17 @@ pub struct WalkFinding<S: Semantics> {
     pub outcome: Outcome,
     /// The same, shrunk.
     pub shrunk: Shrunk<S>,
+}
+
+impl<S: Semantics> WalkFinding<S> {
+    /// The shrunk course as it is shown.
+    pub fn trace(&self) -> Result<Trace, CannotHappen> {
+        let Shrunk { semantics, course, .. } = &self.shrunk;
+        let outcome = course::run(&**semantics, course, true);
+        let clauses: Vec<Clause> = semantics.clauses().into_iter().chain(BESIDES).collect();
+        let bound = format!("walk {}, shrunk from {} events", self.number, self.shrunk.events_before);
+        of_course(&**semantics, course, &outcome, &clauses, ("L3", bound))
+    }
 }
 
 /// The first of some walks that breaks a clause, shrunk. `[spec: CHECK-14]`
@@ -129,9 +141,9 @@ impl<S: Semantics> WalkRun<S> {
             verdict: Verdict::of(evidence),
             properties,
             notes: self.notes(counts, found),
-            traces: found.map(trace).into_iter().collect(),
             ..run
         }
+        .with_trace(found.map(WalkFinding::trace))
     }
 
     /// What walks have to do, and what states bore witness of.
@@ -206,18 +218,5 @@ impl<S: Semantics> WalkRun<S> {
             ));
         }
         notes
-    }
-}
-
-/// The shrunk course as it is shown.
-fn trace<S: Semantics>(found: &WalkFinding<S>) -> RunTrace {
-    let Shrunk { semantics, course, .. } = &found.shrunk;
-    let outcome = course::run(&**semantics, course, true);
-    RunTrace {
-        clause: outcome.clause().unwrap_or_default().into(),
-        detail: outcome.to_string(),
-        steps: course.events.len(),
-        text: lines(course, &outcome).join("\n"),
-        json: course::json(&**semantics, course, &outcome),
     }
 }
