@@ -148,7 +148,7 @@ impl<'h, S: Semantics> TraceWriter<'h, S> {
         let before = self.histories.tables().state(choice.before);
         let delta = self.histories.tables().delta(choice.delta);
         let mutation = self.semantics.mutation_of(&before, choice.replica, &delta);
-        let after = self.histories.join(choice.before, choice.delta);
+        let after = self.histories.author_state(choice.before, choice.replica, choice.delta);
         self.push_mutation(choice.replica, mutation.as_ref(), choice.delta, choice.before, after);
     }
 

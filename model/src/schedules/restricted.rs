@@ -1,6 +1,6 @@
 //! A semantics with a few concrete mutations only.
 
-use crate::semantics::{Breach, Clause, Competition, Judged, Semantics, Step};
+use crate::semantics::{Breach, Clause, Competition, Delivery, Judged, Semantics, Step};
 use std::sync::Arc;
 
 /// Another semantics in which replicas try only the given mutations.
@@ -68,6 +68,18 @@ impl<S: Semantics> Semantics for Restricted<S> {
 
     fn join_states(&self, left: &S::State, right: &S::State) -> Option<S::State> {
         self.whole.join_states(left, right)
+    }
+
+    fn delivery(&self) -> Delivery {
+        self.whole.delivery()
+    }
+
+    fn differ(&self, left: &S::State, right: &S::State) -> Option<String> {
+        self.whole.differ(left, right)
+    }
+
+    fn judges(&self, clause: &str) -> bool {
+        self.whole.judges(clause)
     }
 
     fn judge(&self, state: &S::State) -> Result<Judged, Breach> {

@@ -4,7 +4,7 @@ use super::space::{HAPPENINGS, Schedules};
 use super::{ScheduleBound, trace};
 use crate::progress::Progress;
 use crate::search::{COUNTEREXAMPLE_MAX, Findings, find_fault, search};
-use crate::semantics::{Clause, Semantics};
+use crate::semantics::{Clause, Delivery, Semantics};
 use crate::trace::Trace;
 use crate::verdict::{RunReport, RunTrace, StateCounts};
 use std::sync::Arc;
@@ -42,7 +42,7 @@ impl<S: Semantics> ScheduleRun<S> {
         let (judged, diamonds) = schedules.judged();
         let findings = Findings {
             nodes: "schedules",
-            clauses: self.semantics.clauses().into_iter().chain(QUIESCENCE).collect(),
+            clauses: self.clauses(),
             seen: self.witnesses(schedules.happened),
             states: StateCounts { judged, diamonds, ..StateCounts::default() },
             breach: found.fault().map(|fault| fault.breach.clone()),
@@ -62,12 +62,18 @@ impl<S: Semantics> ScheduleRun<S> {
         RunReport { traces: trace.map(RunTrace::from).into_iter().collect(), ..report }
     }
 
+    fn clauses(&self) -> Vec<Clause> {
+        let own = QUIESCENCE.into_iter().filter(|clause| self.semantics.judges(clause.id));
+        self.semantics.clauses().into_iter().chain(own).collect()
+    }
+
     /// What must have happened, given the bound.
     fn witnesses(&self, happened: u32) -> Vec<(String, bool)> {
         let several = self.bound.everybody() > 1 && self.bound.mutations > 0;
         let restarts = self.bound.restarts > 0;
         let resynchronises = several && self.bound.resynchronisations > 0;
-        let expected = [several, several, several, restarts, restarts, resynchronises];
+        let lossy = several && self.semantics.delivery() == Delivery::Any;
+        let expected = [several, lossy, lossy, restarts, restarts, resynchronises];
         let named = HAPPENINGS.iter().enumerate().zip(expected).filter(|(_, expected)| *expected);
         named.map(|((bit, name), _)| ((*name).into(), happened >> bit & 1 == 1)).collect()
     }

@@ -4,8 +4,8 @@ use super::state::{Event, Message, NO_ANSWER, Schedule};
 use super::{RESYNCHRONISATIONS_MAX, ScheduleBound};
 use crate::checked::INCARNATION;
 use crate::search::Space;
-use crate::semantics::{Breach, Semantics};
-use crate::tables::{DeltaId, StateId, Tables};
+use crate::semantics::{Breach, Delivery, Semantics};
+use crate::tables::{DeltaId, NONE, StateId, Tables};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::Arc;
 
@@ -92,7 +92,13 @@ impl<S: Semantics> Schedules<S> {
         }
         let under_way: Vec<(Message, usize)> = at.under_way(self.bound.everybody()).collect();
         for (message, replica) in under_way {
-            self.deliver(at, message, replica, out)?;
+            match self.semantics.delivery() {
+                Delivery::Any => self.deliver(at, message, replica, out)?,
+                Delivery::Once if at.is_next(message, replica) => {
+                    self.deliver_once(at, message, replica, out)?;
+                }
+                Delivery::Once => {}
+            }
         }
         if at.restarts() < self.bound.restarts {
             self.restart(at, out);
@@ -118,7 +124,14 @@ impl<S: Semantics> Schedules<S> {
         for step in moves.iter() {
             let event = Event::Mutate { replica, delta: step.delta };
             let mut next = *at;
-            next.states[replica] = self.receive(before, step.delta, event)?;
+            next.states[replica] = match step.after {
+                NONE => self.receive(before, step.delta, event)?,
+                after => {
+                    let judged = self.judge_state(after);
+                    judged.map_err(|breach| ScheduleFault { breach, event: Some(event) })?;
+                    after
+                }
+            };
             next.broadcast(replica, step.delta, self.bound.everybody());
             out.push((event, next));
         }
@@ -150,6 +163,27 @@ impl<S: Semantics> Schedules<S> {
         // What changes nothing leads where losing it leads; that it changes nothing was judged above.
         self.happened |= 1 << 2 | u32::from(after == at.states[replica]) << 1;
         Ok(())
+    }
+
+    fn deliver_once(
+        &mut self,
+        at: &Schedule,
+        message: Message,
+        replica: usize,
+        out: &mut Vec<(Event, Schedule)>,
+    ) -> Found {
+        let event = Event::Deliver { replica, message, again: false };
+        let mut next = *at;
+        next.states[replica] = self.receive(at.states[replica], at.content(message), event)?;
+        next.remove(message, replica);
+        self.happened |= 1;
+        out.push((event, next));
+        Ok(())
+    }
+
+    /// The author's state after a mutation.
+    pub(super) fn author_state(&mut self, before: StateId, author: usize, delta: DeltaId) -> StateId {
+        self.tables.author_state(&self.semantics, before, author, delta)
     }
 
     fn restart(&mut self, at: &Schedule, out: &mut Vec<(Event, Schedule)>) {
@@ -220,6 +254,11 @@ impl<S: Semantics> Schedules<S> {
     pub fn judge(&mut self, at: &Schedule) -> Result<(), Breach> {
         self.judge_state(self.initial)?;
         let everybody = self.bound.everybody();
+        if self.semantics.delivery() == Delivery::Once {
+            // Moments at which nothing is under way follow from every other.
+            let quiet = at.under_way(everybody).next().is_none();
+            return if quiet { self.judge_equal(&at.states[..everybody]) } else { Ok(()) };
+        }
         let mut ends = Vec::with_capacity(everybody);
         for replica in 0..everybody {
             let mut state = at.states[replica];
@@ -228,10 +267,27 @@ impl<S: Semantics> Schedules<S> {
             }
             ends.push(state);
         }
-        if ends.iter().any(|end| *end != ends[0]) {
-            return Err(Breach::new("JOIN-5", "everything is delivered to everybody, and they differ"));
-        }
+        self.judge_equal(&ends)?;
         self.judge_resynchronised(at)
+    }
+
+    fn judge_equal(&self, ends: &[StateId]) -> Result<(), Breach> {
+        let first = ends.first().copied().unwrap_or(self.initial);
+        for (replica, &end) in ends.iter().enumerate().filter(|(_, end)| **end != first) {
+            if let Some(what) = self.semantics.differ(&self.tables.state(first), &self.tables.state(end))
+                && self.semantics.judges("JOIN-5")
+            {
+                let they = match &*what {
+                    "" => "they differ".into(),
+                    what => format!("r1 and r{} differ: {what}", replica + 1),
+                };
+                return Err(Breach::new(
+                    "JOIN-5",
+                    format!("everything is delivered to everybody, and {they}"),
+                ));
+            }
+        }
+        Ok(())
     }
 
     /// The first replica asks everybody, then everybody asks the first.

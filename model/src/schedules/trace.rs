@@ -59,7 +59,9 @@ fn step<S: Semantics>(
         Event::Mutate { replica, delta } => {
             let act =
                 mutate_act(schedules, before, replica, delta, message_name(replica, before.made(replica)));
-            (replica, act, received(schedules, before, replica, delta))
+            let identity = replica + INCARNATION * usize::from(before.incarnations[replica]);
+            let after = schedules.author_state(before.states[replica], identity, delta);
+            (replica, act, after)
         }
         Event::Deliver { replica, message, .. } => {
             let delta = before.content(message);
