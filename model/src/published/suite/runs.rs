@@ -6,7 +6,7 @@ use crate::job::Job;
 use crate::progress::Progress;
 use crate::published::{NodeId, Operation, Variant};
 use crate::schedules::{Restricted, ScheduleBound, ScheduleRun};
-use crate::verdict::{RunReport, Verdict};
+use crate::verdict::{RunReport, StateCounts, Verdict};
 use std::sync::Arc;
 
 /// What of the suite of the checked semantics says nothing of this one, and why.
@@ -120,7 +120,7 @@ impl ClauseRun {
         if self.clause == "JOIN-3" {
             // Beyond one call each L1 builds on equality of whole states.
             let rung = |replicas| HistoryRun {
-                name: format!("{} alone, {replicas} × 1, all seven", self.clause),
+                name: format!("{replicas} × 1"),
                 semantics: all.clone(),
                 focus: nodes,
                 bound: Bound { replicas, mutations: 1 },
@@ -129,12 +129,11 @@ impl ClauseRun {
             };
             return vec![Box::new(rung(2)), Box::new(rung(3))];
         }
-        let named = |what: &str| format!("{} alone, {what}", self.clause);
         let at_focus = of(&CallKind::ALL, Some(FOCUS));
         vec![
-            Box::new(schedule(&named("2 × 1, all seven"), all.clone(), nodes, once(2, 1))),
-            Box::new(schedule(&named("2 × 2, all seven, one node"), at_focus.clone(), 1, once(2, 2))),
-            Box::new(schedule(&named("3 × 1, all seven, one node"), at_focus, 1, once(3, 1))),
+            Box::new(schedule("2 × 1", all.clone(), nodes, once(2, 1))),
+            Box::new(schedule("2 × 2 at one node", at_focus.clone(), 1, once(2, 2))),
+            Box::new(schedule("3 × 1 at one node", at_focus, 1, once(3, 1))),
         ]
     }
 }
@@ -149,18 +148,29 @@ impl Job for ClauseRun {
     }
 
     fn run(&self, progress: &Arc<Progress>) -> RunReport {
-        let mut reports = self.rungs().into_iter().map(|rung| rung.run(progress));
-        let mut least = RunReport::new(self.name(), self.layer(), String::new(), progress.seconds());
-        let mut held = Vec::new();
-        for report in reports.by_ref() {
-            least = report;
-            if least.verdict != Verdict::Exhaustive {
-                break;
+        let mut report = RunReport::new(self.name(), self.layer(), String::new(), progress.seconds());
+        let mut held: Vec<RunReport> = Vec::new();
+        for rung in self.rungs() {
+            report = rung.run(progress);
+            if report.verdict != Verdict::Exhaustive {
+                let bounds = held.iter().map(|held| &*held.name).collect::<Vec<_>>().join("; ");
+                report.notes.extend((!held.is_empty()).then(|| format!("holds at {bounds}")));
+                report.name = format!("{}, {}", self.name(), report.name);
+                return report;
             }
-            held.push(least.name.clone());
+            held.push(report.clone());
         }
-        least.notes.extend((!held.is_empty()).then(|| format!("holds: {}", held.join("; "))));
-        least
+        let bounds = held.iter().map(|held| &*held.name).collect::<Vec<_>>().join("; ");
+        let all = |of: fn(&StateCounts) -> u64| held.iter().map(|held| of(&held.states)).sum();
+        report.states = StateCounts {
+            unique: all(|states| states.unique),
+            generated: all(|states| states.generated),
+            judged: all(|states| states.judged),
+            subsets: all(|states| states.subsets),
+            sampled: all(|states| states.sampled),
+            diamonds: all(|states| states.diamonds),
+        };
+        RunReport { name: format!("{}, {bounds}", self.name()), search_seconds: report.seconds, ..report }
     }
 }
 
