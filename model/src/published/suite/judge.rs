@@ -28,7 +28,7 @@ const fn clause(id: &'static str, claim: &'static str, what: &'static str) -> Cl
 }
 
 impl Published {
-    /// `[property: VIEW-1]` `[property: INV-2]` `[property: INV-3]` `[property: VIEW-7]`
+    /// Of one state.
     pub(super) fn judge_state(&self, state: &Held) -> Result<(), Breach> {
         let replica = &state.replica;
         if let Some(crash) = replica.crash {
@@ -52,7 +52,7 @@ impl Published {
         judged.find(Result::is_err).unwrap_or(Ok(()))
     }
 
-    /// `[property: MUT-0]` `[property: INTENT-1]`
+    /// Of a call.
     pub(super) fn judge_call(
         &self,
         before: &Held,
@@ -78,7 +78,7 @@ impl Published {
         }
     }
 
-    /// `[property: STATE-3]`
+    /// Of a delivery.
     pub(super) fn judge_received(&self, before: &Held, after: &Held) -> Result<(), Breach> {
         if !self.is_judged("STATE-3") {
             return Ok(());
