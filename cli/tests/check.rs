@@ -126,3 +126,45 @@ fn wrong_usage_and_input_say_what_to_do() {
     refused(&["check", "@nowhere"], &["@flat or @tiny"]);
     refused(&["check", "--layer", "L9"], &["l0, l1, l2, walks, scenario"]);
 }
+
+/// `[spec: CHECK-12]`
+#[test]
+fn the_published_semantics_is_violated_clause_by_clause() {
+    let output = dsr(&["check", "--semantics", "published", "--layer", "l1", "--format", "json"]);
+    let report: Value =
+        serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{}", text(&output.stderr)));
+    assert_eq!(output.status.code(), Some(1));
+    let runs = report["runs"].as_array().expect("a list");
+    let count = |verdict: &str| runs.iter().filter(|run| run["verdict"] == verdict).count();
+    assert_eq!((runs.len(), count("violated"), count("exhaustive")), (25, 23, 2));
+    assert!(runs.iter().all(|run| run["semantics"] == "published (upstream, agent 0 in all that is new)"));
+    let skipped = report["not_applicable"].as_array().expect("a list");
+    assert!(skipped.iter().any(|line| line.as_str().is_some_and(|line| line.starts_with("L0: "))));
+    let alone = &runs[0];
+    assert_eq!(alone["name"], "JOIN-3 alone, 2 × 1");
+    let trace = alone["properties"][0]["trace"].as_str().expect("a file");
+    let shown = dsr(&["trace", trace]);
+    assert!(shown.status.success(), "{}", text(&shown.stderr));
+    assert!(text(&shown.stdout).contains("finds #"), "{}", text(&shown.stdout));
+}
+
+#[test]
+fn the_checked_semantics_has_nothing_that_does_not_apply() {
+    let output = dsr(&["check", "@tiny", "--semantics", "checked", "--format", "json"]);
+    let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(report["not_applicable"].as_array().map(Vec::len), Some(0));
+}
+
+#[test]
+fn flags_of_the_published_semantics_need_it() {
+    refused(&["check", "--variant", "fork"], &["add --semantics published"]);
+    refused(&["check", "--agent-id", "zero", "@tiny"], &["add --semantics published"]);
+    refused(&["check", "--semantics", "published", "@tiny"], &["leave out FILE"]);
+    refused(&["check", "--semantics", "published", "--deep"], &["leave out --deep"]);
+    refused(&["check", "--semantics", "published", "--layer", "l0"], &["contexts and records", "l1,l2"]);
+    refused(
+        &["check", "--semantics", "published", "--layer", "l1,scenario"],
+        &["mutations of the checked", "l1,l2"],
+    );
+    refused(&["check", "--semantics", "mine"], &["checked, published"]);
+}

@@ -157,6 +157,26 @@ pub trait Semantics: Debug + Send + Sync + 'static {
         0
     }
 
+    /// How deltas reach replicas. `[spec: CHECK-12]`
+    fn delivery(&self) -> Delivery {
+        Delivery::Any
+    }
+
+    /// How two states differ that ought to be equal, in words if there is something to say; `None` if they
+    /// count as equal. Whoever lets different states count as equal forgoes what L1 concludes from equality.
+    fn differ(&self, left: &Self::State, right: &Self::State) -> Option<String> {
+        (left != right).then(String::new)
+    }
+
+    /// The same semantics with fewer differences counted, those that people see: a counterexample is sought by
+    /// that first.
+    fn plain(&self) -> Option<Self>
+    where
+        Self: Sized,
+    {
+        None
+    }
+
     /// Judges one state by itself: every clause that must always hold of it.
     fn judge(&self, state: &Self::State) -> Result<Judged, Breach>;
 
@@ -264,8 +284,8 @@ pub trait Semantics: Debug + Send + Sync + 'static {
     }
 
     /// Whether a delta says that a claim is gone.
-    fn ends(&self, delta: &Self::Delta, claim: &Claim) -> bool {
-        let _ = (delta, claim);
+    fn ends(&self, delta: &Self::Delta, target: &Target, claim: &Claim) -> bool {
+        let _ = (delta, target, claim);
         false
     }
 
@@ -314,6 +334,23 @@ pub trait Semantics: Debug + Send + Sync + 'static {
     fn clauses(&self) -> Vec<Clause> {
         COMMUTES.to_vec()
     }
+
+    /// Whether a clause that a layer judges by itself is judged of this semantics.
+    fn judges(&self, clause: &str) -> bool {
+        let _ = clause;
+        true
+    }
+}
+
+/// How deltas reach replicas. `[spec: CHECK-12]`
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Delivery {
+    /// However often and in whatever order: a delta that arrives again, or at its author, changes nothing. So
+    /// the author's state is the old one joined with the delta, and what was lost can be delivered later.
+    Any,
+    /// To each other replica once; in L2 those of one author in their order. The author's state is what the
+    /// step leaves.
+    Once,
 }
 
 /// A clause that is judged.

@@ -1,7 +1,7 @@
 //! Interned states and deltas, and memoised joins: so that the production core runs inside the search at
 //! the speed of integers. Replica states recur far more often than histories do.
 
-use crate::semantics::{Breach, Judged, Semantics, Step, Witnesses};
+use crate::semantics::{Breach, Delivery, Judged, Semantics, Step, Witnesses};
 use rustc_hash::FxHashMap;
 use std::hash::Hash;
 use std::sync::Arc;
@@ -49,6 +49,8 @@ pub struct Move {
     pub delta: DeltaId,
     /// Its kind.
     pub kind: usize,
+    /// The author's state after it; [`NONE`] where that is the old one joined with the delta.
+    pub after: StateId,
 }
 
 /// Everything that one run has computed of the semantics.
@@ -158,7 +160,11 @@ impl<S: Semantics> Tables<S> {
             }
             let kind = semantics.kind(&mutation);
             let delta = self.intern_delta(step.delta, 1 << kind);
-            moves.push(Move { delta, kind });
+            let after = match semantics.delivery() {
+                Delivery::Any => NONE,
+                Delivery::Once => self.intern(step.after),
+            };
+            moves.push(Move { delta, kind, after });
         }
         let moves: Arc<[Move]> = moves.into();
         self.moves.insert((state, replica), moves.clone());
@@ -168,6 +174,18 @@ impl<S: Semantics> Tables<S> {
     /// What replica `replica` can do in a state, if that was asked before.
     pub fn known_moves(&self, state: StateId, replica: usize) -> Option<Arc<[Move]>> {
         self.moves.get(&(state, replica)).cloned()
+    }
+
+    /// The author's state after a mutation that broadcast a delta in a state.
+    pub fn author_state(&mut self, semantics: &S, before: StateId, author: usize, delta: DeltaId) -> StateId {
+        if semantics.delivery() == Delivery::Once {
+            let (state, sent) = (self.state(before), self.delta(delta));
+            let step = semantics.steps(&state, author).into_iter().find(|(_, step)| step.delta == *sent);
+            if let Some((_, step)) = step {
+                return self.intern(step.after);
+            }
+        }
+        self.join(semantics, before, delta)
     }
 
     /// Whether what replicas may do in a state depends on their order.

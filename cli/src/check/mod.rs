@@ -1,5 +1,6 @@
 //! `dsr check`: what happens to a graph when several agents edit it at once.
 
+mod about;
 mod live;
 mod page;
 mod plan;
@@ -19,6 +20,10 @@ Without FILE, checks the checked semantics on the embedded flat: the algebra of 
 mutations (L1), schedules of a lossy network (L2) and every shipped scenario. Long random walks (L3) are made only when \
 asked for: they are a sample, so their verdict is never more than bounded.
 
+With --semantics published, the same layers run on the published semantics, rebuilt from a description of what the \
+published system does, on a small graph of their own; each clause that it can be held to is also run alone, at growing \
+bounds until it breaks.
+
 With FILE, a scene is checked by L1 on some of its vertices, and a scenario is explored in all its interleavings and \
 deliveries.";
 
@@ -29,6 +34,8 @@ Examples:
   dsr check @tiny --focus robot,cup --mutations 1    two replicas on two vertices of a scene
   dsr check my.scenario.json                         a scenario of your own
   dsr check --report result.html                     a page to look at the result in a browser
+  dsr check --semantics published                    the published semantics, and the shortest way to break each clause
+  dsr check --semantics published --variant fork --agent-id distinct
   dsr check --deep --seconds-max 1800                as far as it goes in half an hour a run
   dsr check --layer walks --seed 7                   long random walks; a failure is shrunk before it is shown
 
@@ -58,6 +65,16 @@ pub(crate) struct Arguments {
     /// Kinds of mutation, separated by commas, or `all`; for scenes
     #[arg(long, value_delimiter = ',', default_value = "all", value_parser = kind)]
     alphabet: Vec<Kinds>,
+    /// Whose semantics is checked
+    #[arg(long, value_enum, default_value_t = Whose::Checked)]
+    semantics: Whose,
+    /// Which implementation of the published semantics; `upstream` if not said
+    #[arg(long, value_enum)]
+    variant: Option<VariantName>,
+    /// Which agent new things say they are from in the published semantics; `zero`, as its constructors do, if
+    /// not said
+    #[arg(long, value_enum)]
+    agent_id: Option<AgentIds>,
     /// Layers of the suite, separated by commas
     #[arg(long, value_delimiter = ',', value_enum)]
     layer: Vec<Layer>,
@@ -111,6 +128,33 @@ pub(crate) enum Layer {
     Scenario,
 }
 
+/// Whose semantics.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
+pub(crate) enum Whose {
+    /// This implementation's own
+    Checked,
+    /// The published one
+    Published,
+}
+
+/// An implementation of the published semantics.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
+pub(crate) enum VariantName {
+    /// Several threads take in what arrives
+    Upstream,
+    /// One thread does
+    Fork,
+}
+
+/// Which agent new nodes, edges and attributes say they are from.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
+pub(crate) enum AgentIds {
+    /// Agent 0, whoever made them
+    Zero,
+    /// Their author
+    Distinct,
+}
+
 /// The layers in the order of reports.
 const LAYERS: [&str; 6] = ["L0", "L1", "L1 = L2", "L2", "L3", "scenario"];
 
@@ -159,13 +203,19 @@ impl Arguments {
             err(format!("no run of L1 has seen {witness:?}: the suite proves less than it says"));
         }
         let seconds = started.elapsed().as_secs_f64();
-        let written = self.report.as_ref().map(|path| page::write(path, &runs, verdict, seconds));
+        let written = self
+            .report
+            .as_ref()
+            .map(|path| page::write(path, &runs, verdict, seconds, about::of(self.semantics)));
         match self.format {
             Format::Json => {
-                let text = serde_json::to_string_pretty(&json!({ "verdict": verdict, "runs": runs }));
+                let about = about::of(self.semantics);
+                let json =
+                    json!({ "verdict": verdict, "runs": runs, "not_applicable": about.not_applicable });
+                let text = serde_json::to_string_pretty(&json);
                 out(&format!("{}\n", text.unwrap_or_default()));
             }
-            Format::Text => out(&report::text(&runs, verdict, seconds)),
+            Format::Text => out(&report::text(&runs, verdict, seconds, about::of(self.semantics))),
         }
         if let Some(Err(refusal)) = written {
             err(refusal);
@@ -186,7 +236,8 @@ impl Arguments {
 impl Arguments {
     /// Whether what the runs see together can be asked for.
     fn is_whole_suite(&self) -> bool {
-        self.files.is_empty() && !self.deep && (self.layer.is_empty() || self.layer.contains(&Layer::L1))
+        let own = self.semantics == Whose::Checked && self.files.is_empty();
+        own && !self.deep && (self.layer.is_empty() || self.layer.contains(&Layer::L1))
     }
 }
 

@@ -1,6 +1,6 @@
 //! The result as a page.
 
-use super::report::{ASSUMED, NOT_CHECKED};
+use super::about::About;
 use crate::page::{self, Refusal};
 use dsr_explorer::{Content, Origin, Shown};
 use dsr_model::trace::Trace;
@@ -9,11 +9,17 @@ use serde_json::{Value, json};
 use std::path::Path;
 
 /// Writes a page with the runs and their counterexamples.
-pub(super) fn write(path: &Path, runs: &[RunReport], verdict: Verdict, seconds: f64) -> Result<(), Refusal> {
-    page::write(path, &content(runs, verdict, seconds))
+pub(super) fn write(
+    path: &Path,
+    runs: &[RunReport],
+    verdict: Verdict,
+    seconds: f64,
+    about: &About,
+) -> Result<(), Refusal> {
+    page::write(path, &content(runs, verdict, seconds, about))
 }
 
-fn content(runs: &[RunReport], verdict: Verdict, seconds: f64) -> Content {
+fn content(runs: &[RunReport], verdict: Verdict, seconds: f64, about: &About) -> Content {
     let mut traces = Vec::new();
     let mut texts = Vec::new();
     for run in runs {
@@ -28,8 +34,9 @@ fn content(runs: &[RunReport], verdict: Verdict, seconds: f64) -> Content {
         "verdict": verdict,
         "seconds": seconds,
         "runs": runs,
-        "assumed": ASSUMED,
-        "not_checked": NOT_CHECKED,
+        "assumed": about.assumed,
+        "not_checked": about.not_checked,
+        "not_applicable": about.not_applicable,
         "examples": texts,
     });
     Content { title: "What the check found".into(), report: Some(report), gallery: None, traces }

@@ -1,11 +1,13 @@
 //! Which runs the arguments ask for.
 
-use super::{Arguments, Layer};
+use super::{AgentIds, Arguments, Layer, VariantName, Whose};
 use crate::input::{self, InputError};
 use dsr_core::scene::{FLAT, Scene, Strictness};
 use dsr_core::{Dictionary, MutationKind};
 use dsr_model::histories::Bound;
 use dsr_model::job::{AlgebraRun, Job, ScenarioRun};
+use dsr_model::published::suite as published_suite;
+use dsr_model::published::{Stamps, Variant, Workers};
 use dsr_model::scenario::{Scenario, shipped};
 use dsr_model::suite::{FLAT_FOCUS, Subject};
 use std::path::Path;
@@ -21,6 +23,15 @@ const WALKS_DEEP: u64 = 100_000;
 
 /// Runs, the longest first, so that two cores are busy to the end.
 pub(super) fn jobs(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
+    match arguments.semantics {
+        Whose::Published => return published(arguments),
+        Whose::Checked if arguments.variant.is_some() || arguments.agent_id.is_some() => {
+            return Err(
+                "--variant and --agent-id are of the published semantics: add --semantics published".into()
+            );
+        }
+        Whose::Checked => {}
+    }
     if arguments.files.is_empty() {
         if !arguments.focus.is_empty() {
             return Err("--focus needs a scene: name a file, or @flat".into());
@@ -28,6 +39,40 @@ pub(super) fn jobs(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
         return suite(arguments);
     }
     arguments.files.iter().map(|file| of_file(arguments, file)).collect()
+}
+
+/// `[spec: CHECK-12]`
+fn published(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
+    if !arguments.files.is_empty() || !arguments.focus.is_empty() {
+        return Err("scenes and scenarios are made of vertices, dictionaries and mutations of the checked semantics, \
+                    which the published one has not: with --semantics published leave out FILE and --focus"
+            .into());
+    }
+    if arguments.deep {
+        return Err("the published semantics breaks at the least bounds: leave out --deep".into());
+    }
+    let of_checked = |layer: &&Layer| matches!(layer, Layer::L0 | Layer::Scenario);
+    if let Some(layer) = arguments.layer.iter().find(of_checked) {
+        let prefix = if *layer == Layer::L0 { "L0" } else { "scenarios" };
+        let reason = published_suite::NOT_APPLICABLE.iter().find(|line| line.starts_with(prefix));
+        let reason = reason.copied().unwrap_or(prefix);
+        return Err(format!("{reason}; with --semantics published choose from l1,l2"));
+    }
+    let variant = Variant {
+        workers: match arguments.variant.unwrap_or(VariantName::Upstream) {
+            VariantName::Upstream => Workers::Several,
+            VariantName::Fork => Workers::One,
+        },
+        stamps: match arguments.agent_id.unwrap_or(AgentIds::Zero) {
+            AgentIds::Zero => Stamps::Zero,
+            AgentIds::Distinct => Stamps::Author,
+        },
+    };
+    let wanted = |name: &str| {
+        let layer = if name == "L1" { Layer::L1 } else { Layer::L2 };
+        arguments.layer.is_empty() || arguments.layer.contains(&layer)
+    };
+    Ok(published_suite::jobs(variant, wanted))
 }
 
 fn suite(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {

@@ -1,35 +1,19 @@
 //! The result for people: runs, clauses, witnesses, and what it does and does not mean.
 
+use super::about::About;
 use crate::output::add;
-use dsr_model::verdict::{PropertyKind, RunReport, Verdict};
-use std::collections::BTreeMap;
-
-/// What every run takes for granted; see `spec/network.md`.
-pub(super) const ASSUMED: [&str; 5] = [
-    "replicas start from the same graph and use the same dictionary",
-    "authors follow the specification: no dot is used twice, nobody forges deltas",
-    "deltas arrive whole; they may be lost, repeated and reordered without limit",
-    "L1 fuses deliveries into mutations; that deltas commute is checked in every delivered subset, not assumed",
-    "L1 judges sets of deltas once that differ in nothing that counts; that is tried on a sample of them (CHECK-11)",
-];
-
-/// What no run shows.
-pub(super) const NOT_CHECKED: [&str; 5] = [
-    "anything beyond the bounds above: more replicas, mutations, or elements in focus",
-    "values: one value stands for all, since the semantics compares ranks and never looks into values",
-    "duplicate delivery and resynchronisation in L1 beyond sets of two deltas (L0 and L2 judge them in general)",
-    "liveness: that deltas do arrive is the transport's task",
-    "the proof of the unbounded case: see the claims table in README.md for what is proved and what is not",
-];
+use dsr_model::verdict::{PropertyKind, PropertyReport, RunReport, Verdict};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The whole report.
-pub(super) fn text(runs: &[RunReport], verdict: Verdict, seconds: f64) -> String {
+pub(super) fn text(runs: &[RunReport], verdict: Verdict, seconds: f64, about: &About) -> String {
     let mut text = String::new();
     add_runs(&mut text, runs);
     add_clauses(&mut text, runs);
     add_witnesses(&mut text, runs);
     add_traces(&mut text, runs);
     add_box(&mut text, runs, verdict, seconds);
+    add_about(&mut text, about);
     text
 }
 
@@ -79,13 +63,27 @@ struct ClauseLine<'r> {
     runs: usize,
     judged: u64,
     layers: Vec<&'r str>,
-    trace: Option<&'r str>,
+    /// The shortest, with its steps.
+    trace: Option<(usize, &'r str)>,
 }
 
 fn add_clauses(text: &mut String, runs: &[RunReport]) {
     let mut clauses: BTreeMap<(&str, &str), ClauseLine<'_>> = BTreeMap::new();
+    let always = |property: &&PropertyReport| property.kind == PropertyKind::Always;
+    let stopped = |run: &RunReport, property: &PropertyReport| {
+        run.verdict == Verdict::Violated && property.verdict == Verdict::Bounded
+    };
+    // What another clause has stopped says something of a clause only if nothing else does.
+    let told: BTreeSet<&str> = runs
+        .iter()
+        .flat_map(|run| run.properties.iter().filter(always).filter(|property| !stopped(run, property)))
+        .map(|property| &*property.clause)
+        .collect();
     for run in runs {
-        for property in run.properties.iter().filter(|property| property.kind == PropertyKind::Always) {
+        let counts = |property: &&PropertyReport| {
+            always(property) && !(stopped(run, property) && told.contains(&*property.clause))
+        };
+        for property in run.properties.iter().filter(counts) {
             let group = if run.layer == "scenario" { run.name.as_str() } else { "" };
             let line = clauses.entry((group, &property.clause)).or_insert(ClauseLine {
                 claim: &property.claim,
@@ -105,7 +103,10 @@ fn add_clauses(text: &mut String, runs: &[RunReport]) {
             if !line.layers.contains(&run.layer.as_str()) {
                 line.layers.push(&run.layer);
             }
-            line.trace = line.trace.or(property.trace.as_deref());
+            let steps =
+                run.traces.iter().find(|trace| trace.clause == property.clause).map(|trace| trace.steps);
+            let trace = steps.zip(property.trace.as_deref());
+            line.trace = [line.trace, trace].into_iter().flatten().min_by_key(|(steps, _)| *steps);
         }
     }
     add(
@@ -133,8 +134,8 @@ fn add_clauses(text: &mut String, runs: &[RunReport]) {
                 line.layers.join(", ")
             ),
         );
-        if let Some(trace) = line.trace {
-            add(text, format_args!("{:<6} counterexample: {trace}\n", ""));
+        if let Some((steps, trace)) = line.trace {
+            add(text, format_args!("{:<6} counterexample, {steps} steps: {trace}\n", ""));
         }
     }
 }
@@ -166,9 +167,17 @@ fn add_witnesses(text: &mut String, runs: &[RunReport]) {
 }
 
 fn add_traces(text: &mut String, runs: &[RunReport]) {
+    let mut told: BTreeMap<&str, &str> = BTreeMap::new();
     for run in runs {
         let way = if run.layer == "L3" { "shrunk" } else { "shortest" };
         for trace in &run.traces {
+            if let Some(before) = told.get(&*trace.text) {
+                let line =
+                    format!("\n{} {}: breaks {} as {before} does\n", run.layer, run.name, trace.clause);
+                add(text, line);
+                continue;
+            }
+            told.insert(&trace.text, &run.name);
             add(
                 text,
                 format_args!(
@@ -193,13 +202,19 @@ fn add_box(text: &mut String, runs: &[RunReport], verdict: Verdict, seconds: f64
     );
     add_histories(text, runs);
     add_engines(text, runs);
-    add(text, "assumed:\n");
-    for line in ASSUMED {
-        add(text, format_args!("  · {line}\n"));
-    }
-    add(text, "not checked:\n");
-    for line in NOT_CHECKED {
-        add(text, format_args!("  · {line}\n"));
+}
+
+fn add_about(text: &mut String, about: &About) {
+    let lists = [
+        ("assumed", about.assumed),
+        ("not checked", about.not_checked),
+        ("not applicable", about.not_applicable),
+    ];
+    for (title, lines) in lists.into_iter().filter(|(_, lines)| !lines.is_empty()) {
+        add(text, format_args!("{title}:\n"));
+        for line in lines {
+            add(text, format_args!("  · {line}\n"));
+        }
     }
 }
 

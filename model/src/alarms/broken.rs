@@ -263,8 +263,8 @@ impl Semantics for Broken {
         self.core.claims_held(state, target)
     }
 
-    fn ends(&self, delta: &Delta, claim: &Claim) -> bool {
-        self.core.ends(delta, claim)
+    fn ends(&self, delta: &Delta, target: &Target, claim: &Claim) -> bool {
+        self.core.ends(delta, target, claim)
     }
 
     fn standing(&self, state: &State, target: &Target, claim: &Claim) -> Standing {

@@ -333,7 +333,7 @@ impl Semantics for Checked {
         explain::claims(state, target, &self.dictionary)
     }
 
-    fn ends(&self, delta: &Delta, claim: &Claim) -> bool {
+    fn ends(&self, delta: &Delta, _: &Target, claim: &Claim) -> bool {
         explain::ends(delta, claim)
     }
 

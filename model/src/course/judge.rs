@@ -3,7 +3,7 @@
 
 use super::{Course, Event, Runner, StepError, Stepped};
 use crate::replay::{ALL_DELIVERED, ALL_RESYNCHRONISED};
-use crate::semantics::{Breach, Semantics, Witnesses};
+use crate::semantics::{Breach, Delivery, Semantics, Witnesses};
 use std::fmt;
 
 /// When a clause was found broken.
@@ -157,6 +157,10 @@ impl<'s, S: Semantics> Judge<'s, S> {
     /// Judges the moment: delivering to everybody whatever any mutation broadcast makes all states equal, and
     /// so does resynchronisation. `[property: JOIN-5]` `[property: SYNC-5]`
     pub fn end(&mut self) -> Result<(), Broken> {
+        if self.runner.semantics().delivery() == Delivery::Once {
+            // What was lost or has arrived cannot be delivered later.
+            return Ok(());
+        }
         let broken = |replica| move |breach| Broken { at: Moment::End, replica: Some(replica), breach };
         let everything: Vec<S::Delta> = self
             .runner
@@ -223,7 +227,8 @@ pub fn judge_mutations<S: Semantics>(
 ) -> Result<(), Breach> {
     for (mutation, local) in mutations.iter().zip(&stepped.locals) {
         semantics.judge_step(&local.before, identity, mutation, &local.step)?;
-        if semantics.join(&local.before, &local.step.delta) != local.step.after {
+        let joins = semantics.delivery() == Delivery::Any;
+        if joins && semantics.join(&local.before, &local.step.delta) != local.step.after {
             let wrong = "the author's state is not its old state joined with the delta";
             return Err(Breach::new("MUT-0", wrong));
         }

@@ -2,12 +2,13 @@
 
 use super::Event;
 use crate::checked::INCARNATION;
-use crate::semantics::{Semantics, Step};
+use crate::semantics::{Delivery, Semantics, Step};
 use std::collections::BTreeSet;
 
 /// The states of all replicas and the messages sent so far.
 ///
-/// As in L2, an author's state after a mutation is its old state joined with what it broadcasts, a message goes
+/// As in L2, an author's state after a mutation is its old state joined with what it broadcasts, or what the step
+/// leaves where a delta is not [delivered in any way](Delivery); a message goes
 /// to everybody else (an answer only to whom it answers), and a replica that restarts mutates under the next
 /// index of its own: `index + INCARNATION * restarts`. `[spec: CRASH-2]`
 #[derive(Debug)]
@@ -209,7 +210,10 @@ impl<'s, S: Semantics> Runner<'s, S> {
             Event::Mutate { mutations, .. } => {
                 locals = self.locals(replica, mutations)?;
                 let deltas = self.joined(&locals);
-                let after = self.semantics.join_all(&before, &deltas.iter().collect::<Vec<_>>());
+                let after = match (self.semantics.delivery(), locals.last()) {
+                    (Delivery::Once, Some(last)) => last.step.after.clone(),
+                    _ => self.semantics.join_all(&before, &deltas.iter().collect::<Vec<_>>()),
+                };
                 sent = Some(self.send(Message { sender: replica, to: None, deltas }));
                 after
             }
@@ -267,7 +271,10 @@ impl<'s, S: Semantics> Runner<'s, S> {
             let step = allowed.then(|| self.semantics.mutate(&now, identity, mutation)).flatten();
             let refused = || StepError::Refused { replica, at, mutation: mutation.to_string() };
             let step = step.ok_or_else(refused)?;
-            let after = self.semantics.join(&now, &step.delta);
+            let after = match self.semantics.delivery() {
+                Delivery::Any => self.semantics.join(&now, &step.delta),
+                Delivery::Once => step.after.clone(),
+            };
             locals.push(Local { before: std::mem::replace(&mut now, after), step });
         }
         Ok(locals)

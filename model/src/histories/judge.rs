@@ -11,8 +11,8 @@
 use super::known::{Entry, Known, Unlike};
 use super::shapes::Grain;
 use super::{FoundFault, Histories, History, SAMPLE, TRIED_FIRST};
-use crate::replay::{ANOTHER_ORDER, NOT_THE_JOIN, TWICE};
-use crate::semantics::{Breach, Judged, Semantics};
+use crate::replay::{NOT_THE_JOIN, TWICE, another_order};
+use crate::semantics::{Breach, Delivery, Judged, Semantics};
 use crate::tables::DeltaId;
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
@@ -157,7 +157,9 @@ impl<S: Semantics> Histories<S> {
         let judged = self.tables.judge(&self.semantics, &state);
         let judged = judged.map_err(|breach| Fault::new(breach, set, None))?;
         if set.len() <= REPLAY_MAX {
-            self.judge_again(&state, set)?;
+            if self.semantics.delivery() == Delivery::Any {
+                self.judge_again(&state, set)?;
+            }
             self.judge_repair(&state, set)?;
         }
         Ok(grain_of(judged))
@@ -181,17 +183,22 @@ impl<S: Semantics> Histories<S> {
         let mut known: Option<(S::State, Vec<DeltaId>)> = None;
         for at in 0..set.len() {
             let (mut order, last) = without(set, at);
-            let before = self.state_of(&order)?;
+            let mut before = self.state_of(&order)?;
+            if self.semantics.delivery() == Delivery::Once {
+                // Where different states may count as equal, of the orders that led here the one named counts.
+                before = Arc::new(self.deliver(&order));
+            }
             let joined = self.semantics.join(&before, &self.tables.delta(last));
             self.judge.diamonds += 1;
             let delivery = self.semantics.judge_delivery(&before, &joined);
             delivery.map_err(|breach| Fault::new(breach, &order, Some(last)))?;
             order.push(last);
             match &known {
-                Some((state, delivered)) if *state != joined => {
-                    return Err(diamond(delivered.clone(), order));
+                Some((state, delivered)) => {
+                    if let Some(what) = self.semantics.differ(state, &joined) {
+                        return Err(diamond(delivered.clone(), order, &what));
+                    }
                 }
-                Some(_) => {}
                 None => known = Some((joined, order)),
             }
         }
@@ -235,8 +242,8 @@ impl<S: Semantics> Histories<S> {
         for at in 0..set.len() {
             let (mut order, last) = without(set, at);
             order.push(last);
-            if self.deliver(&order) != state {
-                return Err(diamond(set.into(), order));
+            if let Some(what) = self.semantics.differ(&state, &self.deliver(&order)) {
+                return Err(diamond(set.into(), order, &what));
             }
         }
         let fault = |breach| Fault::new(breach, set, None);
@@ -307,8 +314,8 @@ impl<S: Semantics> Histories<S> {
     }
 }
 
-fn diamond(order: Vec<DeltaId>, other: Vec<DeltaId>) -> Fault {
-    let breach = Breach::new("JOIN-3", ANOTHER_ORDER);
+fn diamond(order: Vec<DeltaId>, other: Vec<DeltaId>, what: &str) -> Fault {
+    let breach = Breach::new("JOIN-3", another_order(what));
     Fault { breach, delivered: order, other_order: Some(other), answered: None }
 }
 

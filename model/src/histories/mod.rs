@@ -20,7 +20,7 @@ pub use run::HistoryRun;
 pub use symmetry::Permutations;
 
 use crate::search::{Space, hash_numbers};
-use crate::semantics::{Breach, Semantics};
+use crate::semantics::{Breach, Delivery, Semantics};
 use crate::tables::{DeltaId, Move, NONE, StateId, StepFault, Tables};
 use judge::Judge;
 use rustc_hash::FxHashMap;
@@ -165,11 +165,7 @@ impl<S: Semantics> Histories<S> {
     /// The state after a delivery.
     pub fn join(&mut self, state: StateId, delta: DeltaId) -> StateId {
         let joined = self.tables.join(&self.semantics, state, delta);
-        if joined as usize == self.origins.len() {
-            let mut origin = self.origins[state as usize].to_vec();
-            origin.push(delta);
-            self.origins.push(origin.into());
-        }
+        self.note_origin(joined, state, delta);
         joined
     }
 
@@ -249,8 +245,12 @@ impl<S: Semantics> Histories<S> {
     /// of what the others broadcast.
     fn reachable(&mut self, history: &History, replica: usize) -> Vec<StateId> {
         let others = (0..self.bound.replicas).filter(|&other| other != replica);
-        let foreign: Vec<DeltaId> =
+        let mut foreign: Vec<DeltaId> =
             others.flat_map(|other| history.deltas[other]).filter(|&delta| delta != NONE).collect();
+        if self.semantics.delivery() == Delivery::Once {
+            let received = &self.origins[history.last[replica] as usize];
+            foreign.retain(|delta| !received.contains(delta));
+        }
         let mut states = vec![history.last[replica]];
         for delta in foreign {
             for at in 0..states.len() {
@@ -276,8 +276,11 @@ impl<S: Semantics> Histories<S> {
         for step in moves.iter() {
             let mut next = *history;
             next.deltas[replica][made] = step.delta;
-            next.last[replica] =
-                if made + 1 < self.bound.mutations { self.join(before, step.delta) } else { NONE };
+            next.last[replica] = match step.after {
+                _ if made + 1 == self.bound.mutations => NONE,
+                NONE => self.join(before, step.delta),
+                after => after,
+            };
             self.note_concurrent(step.kind, unseen);
             let next = if history.concrete { next } else { self.canonical(&next) };
             out.push((Choice { replica, before, delta: step.delta }, next));
@@ -310,6 +313,9 @@ impl<S: Semantics> Histories<S> {
         if let Some(moves) = self.tables.known_moves(before, replica) {
             return Ok(moves);
         }
+        if self.semantics.delivery() == Delivery::Once {
+            return self.own_moves(before, replica);
+        }
         let origin = self.origins[before as usize].clone();
         let sensitive = self.tables.is_order_sensitive(&self.semantics, before);
         let grain = if sensitive { Grain::Fine } else { Grain::Outline };
@@ -337,6 +343,33 @@ impl<S: Semantics> Histories<S> {
         }
         self.tables.set_moves(before, replica, moves.clone());
         Ok(moves)
+    }
+
+    /// The moves of a state where authors do not join their own deltas.
+    fn own_moves(&mut self, before: StateId, replica: usize) -> Result<Arc<[Move]>, FoundFault<S>> {
+        let moves = self.tables.moves(&self.semantics, before, replica).map_err(FoundFault::Step)?;
+        for step in moves.iter() {
+            self.note_origin(step.after, before, step.delta);
+        }
+        Ok(moves)
+    }
+
+    /// The author's state after a mutation.
+    pub(crate) fn author_state(&mut self, before: StateId, author: usize, delta: DeltaId) -> StateId {
+        if self.semantics.delivery() == Delivery::Any {
+            return self.join(before, delta);
+        }
+        let after = self.tables.author_state(&self.semantics, before, author, delta);
+        self.note_origin(after, before, delta);
+        after
+    }
+
+    /// Remembers by which deltas a new state is reached.
+    fn note_origin(&mut self, after: StateId, before: StateId, delta: DeltaId) {
+        if after as usize == self.origins.len() {
+            let origin = self.origins[before as usize].iter().copied().chain([delta]);
+            self.origins.push(origin.collect());
+        }
     }
 
     /// The moves of a state from those of one that looks like it does after renaming replicas `by` a

@@ -9,6 +9,9 @@ use crate::trace::{CannotHappen, Trace};
 use crate::verdict::{RunReport, StateCounts};
 use std::sync::Arc;
 
+/// Among so many histories a counterexample is sought that people see, before any will do.
+const PLAIN_MAX: usize = 10_000;
+
 /// What this layer judges besides: its own conclusions.
 const SHAPES: Clause = Clause {
     id: "CHECK-11",
@@ -104,17 +107,28 @@ impl<S: Semantics> HistoryRun<S> {
         seen
     }
 
-    /// The shortest way to a violation, sought without symmetry; without shapes if there is one without.
+    /// The shortest way to a violation; to one that people see, if there is any.
     fn counterexample(&self) -> Option<(Breach, Result<Trace, CannotHappen>)> {
+        let plain = self.semantics.plain().map(Arc::new);
+        let plain = plain.and_then(|plain| self.shortest(&plain, PLAIN_MAX));
+        plain.or_else(|| self.shortest(&self.semantics, COUNTEREXAMPLE_MAX))
+    }
+
+    /// The shortest way to a violation, sought without symmetry; without shapes if there is one without.
+    fn shortest(
+        &self,
+        semantics: &Arc<S>,
+        nodes_max: usize,
+    ) -> Option<(Breach, Result<Trace, CannotHappen>)> {
         for mutations in 1..=self.bound.mutations {
             let bound = Bound { mutations, ..self.bound };
             for shapes in [false, true] {
-                let mut histories = Histories::new(self.semantics.clone(), bound, false);
+                let mut histories = Histories::new(semantics.clone(), bound, false);
                 histories.set_shapes(shapes, 1);
-                if let Some(mut found) = find_fault(&mut histories, COUNTEREXAMPLE_MAX) {
+                if let Some(mut found) = find_fault(&mut histories, nodes_max) {
                     found.fault = histories.shrunk(found.fault);
                     let breach = found.fault.breach().clone();
-                    let trace = trace::write(&*self.semantics, &mut histories, &self.clauses(), &found);
+                    let trace = trace::write(&**semantics, &mut histories, &self.clauses(), &found);
                     return Some((breach, trace));
                 }
             }

@@ -85,7 +85,7 @@ impl<S: Semantics> Writer<'_, S> {
         };
         self.mutate(replica, &mutation.ok_or_else(unknown)?)?;
         self.messages.push(delta);
-        self.states[replica] = self.histories.join(before, delta);
+        self.states[replica] = self.histories.author_state(before, replica, delta);
         Ok(())
     }
 

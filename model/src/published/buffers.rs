@@ -6,7 +6,7 @@ use super::{Crash, Key, Kind, NodeId, Time};
 use std::collections::BTreeMap;
 
 /// A delta held back.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct Held<T> {
     /// The delta, or several joined.
     pub delta: Register<T>,
@@ -18,7 +18,7 @@ pub struct Held<T> {
 pub type HeldIncoming = (NodeId, Kind, Held<Edge>);
 
 /// The four buffers.
-#[derive(Clone, PartialEq, Eq, Hash, Debug, Default)]
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
 pub struct Buffers {
     /// Attributes of unknown nodes.
     pub node_attributes: BTreeMap<(NodeId, Key), Held<Attribute>>,

@@ -21,7 +21,7 @@ pub enum Topic {
 }
 
 /// A delta to one attribute of a node.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct NodePart {
     /// Who it says sent it.
     pub sender: AgentId,
@@ -34,7 +34,7 @@ pub struct NodePart {
 }
 
 /// A delta to one attribute of an edge.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct EdgePart {
     /// Who it says sent it.
     pub sender: AgentId,
@@ -51,7 +51,7 @@ pub struct EdgePart {
 }
 
 /// A message. Times are the sender's wall clock at sending, in nanoseconds.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Message {
     /// A node is new, or gone.
     Node {
@@ -111,6 +111,17 @@ impl Message {
             Self::Edge { .. } => Topic::Edges,
             Self::EdgeAttributes { .. } => Topic::EdgeAttributes,
             Self::Graph { .. } => Topic::Graph,
+        }
+    }
+
+    /// The sender's clock at sending.
+    pub const fn time(&self) -> Time {
+        match self {
+            Self::Node { time, .. }
+            | Self::NodeAttributes { time, .. }
+            | Self::Edge { time, .. }
+            | Self::EdgeAttributes { time, .. }
+            | Self::Graph { time, .. } => *time,
         }
     }
 

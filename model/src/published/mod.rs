@@ -14,6 +14,7 @@
 //! | `setup`, `world`, `tables`, `space`, `machines` | several replicas and their network, as a space to search |
 //! | `property` | what may break |
 //! | `show`, `picture`, `json`, `explain` | events in words; for traces, what a replica shows, all of it, and why |
+//! | `suite` | the same replicas behind the checker's trait, and what `dsr check` runs of them |
 
 mod buffers;
 mod context;
@@ -34,6 +35,7 @@ mod setup;
 mod show;
 mod snapshot;
 mod space;
+pub mod suite;
 mod tables;
 mod variant;
 mod world;
@@ -58,6 +60,8 @@ use std::fmt;
 pub type NodeId = u32;
 /// An agent's number.
 pub type AgentId = u32;
+/// The agent of a replica that has called nothing yet: no message is its own.
+pub const NOBODY: AgentId = AgentId::MAX;
 /// A wall clock, in nanoseconds. Always given, never read.
 pub type Time = u64;
 /// The type of a node or of an edge.

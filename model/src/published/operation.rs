@@ -4,7 +4,7 @@ use super::{Key, Kind, NodeId};
 
 /// One call of an agent on its own replica, or what agents usually do in one go. All of it is atomic, except
 /// that [`Get`](Self::Get) and [`PutBack`](Self::PutBack) are two calls.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Operation {
     /// Inserts a node.
     InsertNode {

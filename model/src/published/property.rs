@@ -3,7 +3,7 @@
 use super::graph::{Attribute, Value};
 use super::local::{LEVEL, PARENT, RT};
 use super::replica::{Replica, Shown};
-use super::{Key, NodeId};
+use super::{Key, NOBODY, NodeId};
 use crate::semantics::Breach;
 use std::collections::BTreeSet;
 
@@ -20,6 +20,8 @@ pub enum Property {
     Revived(NodeId),
     /// Two kinematic edges end at a node, and replicas name different parents.
     TwoParents(NodeId),
+    /// Several kinematic edges end at a node.
+    SeveralParents(NodeId),
     /// Following `parent` never ends: a transform loops.
     ParentLoop,
     /// A node has one kinematic edge, and `parent` does not name its start, or `level` is missing.
@@ -48,9 +50,11 @@ impl Property {
             Self::Unreadable => "VIEW-1",
             Self::Dangling(_) | Self::Orphan(_) => "INV-2",
             Self::Revived(_) => "STATE-3",
-            Self::TwoParents(_) | Self::ParentLoop | Self::ParentMismatch(_) | Self::LevelMismatch(_) => {
-                "INV-3"
-            }
+            Self::TwoParents(_)
+            | Self::SeveralParents(_)
+            | Self::ParentLoop
+            | Self::ParentMismatch(_)
+            | Self::LevelMismatch(_) => "INV-3",
             Self::Lost(..) => "INTENT-2",
             Self::NameIndex => "VIEW-7",
             Self::Unreconciled | Self::Missing(_) => "SYNC-5",
@@ -65,6 +69,7 @@ impl Property {
             Self::Dangling(_) => "an edge ends at a deleted node",
             Self::Revived(_) => "a node is shown that is deleted elsewhere",
             Self::TwoParents(_) => "a node has two kinematic parents, and replicas answer by different ones",
+            Self::SeveralParents(_) => "a node has several kinematic parents",
             Self::ParentLoop => "the parents form a circle: a transform never ends",
             Self::ParentMismatch(_) => "a kinematic edge is shown and `parent` and `level` do not say so",
             Self::LevelMismatch(_) => "a node's level does not follow from its parent's",
@@ -101,6 +106,11 @@ impl Property {
                 Some(format!("#{node} is shown at {}, deleted at {}", here.agent, gone.agent))
             }
             Self::TwoParents(child) => two_parents(child, replicas),
+            Self::SeveralParents(child) => each.find_map(|at| {
+                let parents = kinematic_parents(at, child);
+                let names: Vec<String> = parents.iter().map(|parent| format!("#{parent}")).collect();
+                (parents.len() > 1).then(|| said(at, &format!("#{child} below {}", names.join(" and "))))
+            }),
             Self::ParentLoop => each.find_map(|at| parent_loop(at).map(|node| said(at, &format!("#{node}")))),
             Self::ParentMismatch(child) => {
                 each.find_map(|at| mismatch(at, child).map(|what| said(at, &what)))
@@ -148,29 +158,31 @@ impl Replica {
 }
 
 fn said(at: &Replica, what: &str) -> String {
-    format!("{what} at agent {}", at.agent)
+    if at.agent == NOBODY { what.into() } else { format!("{what} at agent {}", at.agent) }
 }
 
 fn divergence(replicas: &[&Replica]) -> Option<String> {
     let shown: Vec<Shown> = replicas.iter().map(|at| at.shown()).collect();
     let first = shown.first()?;
     let other = shown.iter().position(|other| other != first)?;
-    let (left, right) = (lines(first), lines(&shown[other]));
+    let (left, right) = only(&lines(first), &lines(&shown[other]));
+    Some(format!(
+        "only agent {} shows {left}; only agent {} shows {right}",
+        replicas[0].agent, replicas[other].agent
+    ))
+}
+
+/// What only one and only the other says, each in a line.
+pub(super) fn only(left: &BTreeSet<String>, right: &BTreeSet<String>) -> (String, String) {
     let only = |mine: &BTreeSet<String>, theirs: &BTreeSet<String>| {
         let only: Vec<&str> = mine.difference(theirs).map(String::as_str).collect();
         if only.is_empty() { "nothing".to_owned() } else { only.join(", ") }
     };
-    Some(format!(
-        "only agent {} shows {}; only agent {} shows {}",
-        replicas[0].agent,
-        only(&left, &right),
-        replicas[other].agent,
-        only(&right, &left)
-    ))
+    (only(left, right), only(right, left))
 }
 
 /// A graph as a set of facts.
-fn lines(shown: &Shown) -> BTreeSet<String> {
+pub(super) fn lines(shown: &Shown) -> BTreeSet<String> {
     let mut lines = BTreeSet::new();
     for (id, node) in shown {
         let Some(node) = node else {

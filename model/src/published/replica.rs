@@ -8,7 +8,7 @@ use super::{AgentId, Crash, Key, Kind, NodeId};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A node as a user holds it: a copy, which does not follow later changes.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct NodeCopy {
     /// Which node.
     pub id: NodeId,
@@ -21,7 +21,7 @@ pub struct NodeCopy {
 /// A replica. The indices are derived, and kept as badly as the published ones are.
 ///
 /// The published index of edges by end is left out: nothing that is modelled reads it.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct Replica {
     /// Its agent.
     pub agent: AgentId,

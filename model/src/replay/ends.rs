@@ -2,12 +2,25 @@
 
 use super::ReplayError;
 use crate::course::{Event, Stepped, judge_mutations};
-use crate::semantics::{Breach, Semantics};
+use crate::semantics::{Breach, Delivery, Semantics};
 use crate::trace::{Finding, FindingKind, Recorder};
 use std::collections::BTreeSet;
 
 /// The same deltas in another order.
 pub const ANOTHER_ORDER: &str = "the same deltas in another order lead to another state";
+/// That the same deltas in another order lead elsewhere, and how.
+pub fn another_order(how: &str) -> String {
+    if how.is_empty() { ANOTHER_ORDER.into() } else { format!("{ANOTHER_ORDER}: {how}") }
+}
+
+/// That everything is delivered and the first replica and another, by position, differ, and how.
+pub fn all_delivered(other: usize, how: &str) -> String {
+    if how.is_empty() {
+        return ALL_DELIVERED.into();
+    }
+    format!("everything is delivered to everybody, and r1 and r{} differ: {how}", other + 1)
+}
+
 /// The same delta twice.
 pub const TWICE: &str = "a delta delivered twice is not the same as once";
 /// A resynchronisation that does not do what it is for.
@@ -57,7 +70,8 @@ impl<'s, S: Semantics> Ends<'s, S> {
             }
             Event::Deliver { message, .. } => {
                 broken.extend(self.semantics.judge_delivery(before, after).err());
-                if !self.received[*replica].insert(*message) && before != after {
+                let is_again = !self.received[*replica].insert(*message);
+                if is_again && before != after && self.semantics.delivery() == Delivery::Any {
                     broken.push(Breach::new("JOIN-3", TWICE));
                 }
                 let made_from = self.answers.iter().find(|(answer, _)| answer == message);
@@ -124,17 +138,20 @@ impl<'s, S: Semantics> Ends<'s, S> {
             (0..recorder.runner().messages().len()).filter(|message| !is_answer(message)).collect();
         let has_all = |&replica: &usize| sent.is_subset(&self.received[replica]);
         for left in 0..states.len() {
-            let alike = |&right: &usize| self.received[left] == self.received[right];
-            let odd = (left + 1..states.len()).filter(alike).filter(|&right| states[left] != states[right]);
-            shown.extend(
-                odd.map(|right| Shown {
-                    breach: Breach::new("JOIN-3", ANOTHER_ORDER),
-                    by: vec![left, right],
-                }),
-            );
+            let alike = (left + 1..states.len()).filter(|&right| self.received[left] == self.received[right]);
+            shown.extend(alike.filter_map(|right| {
+                let how = self.semantics.differ(&states[left], &states[right])?;
+                Some(Shown { breach: Breach::new("JOIN-3", another_order(&how)), by: vec![left, right] })
+            }));
         }
-        if differ(recorder) && everybody().iter().all(has_all) {
-            shown.push(Shown { breach: Breach::new("JOIN-5", ALL_DELIVERED), by: everybody() });
+        if everybody().iter().all(has_all) {
+            let mut others = 1..states.len();
+            let odd =
+                others.find_map(|other| Some((other, self.semantics.differ(&states[0], &states[other])?)));
+            shown.extend(odd.map(|(other, how)| Shown {
+                breach: Breach::new("JOIN-5", all_delivered(other, &how)),
+                by: everybody(),
+            }));
         }
         if differ(recorder) && self.all_resynchronised(states.len()) {
             shown.push(Shown { breach: Breach::new("SYNC-5", ALL_RESYNCHRONISED), by: everybody() });

@@ -14,7 +14,10 @@ mod published;
 mod steps;
 
 pub use difference::Difference;
-pub use ends::{ALL_DELIVERED, ALL_RESYNCHRONISED, ANOTHER_ORDER, Ends, NOT_THE_JOIN, Shown, TWICE};
+pub use ends::{
+    ALL_DELIVERED, ALL_RESYNCHRONISED, ANOTHER_ORDER, Ends, NOT_THE_JOIN, Shown, TWICE, all_delivered,
+    another_order,
+};
 pub(crate) use published::PublishedReplay;
 pub(crate) use steps::Replay;
 pub use steps::replay_with;
@@ -23,6 +26,8 @@ use crate::alarms;
 use crate::checked::Checked;
 use crate::checked::alphabet::Alphabet;
 use crate::gallery;
+use crate::published::suite::Published;
+use crate::semantics::Semantics;
 use crate::trace::{CannotHappen, Trace, Unsound};
 
 /// Why a trace does not happen again as it is written. Steps count from 1.
@@ -107,6 +112,9 @@ pub fn replay(trace: &Trace) -> Result<Replayed, ReplayError> {
     if gallery::is_published(trace) {
         return published::replay(trace);
     }
+    if name.starts_with("published") {
+        return replay_with(&published_suite(trace)?, trace);
+    }
     if name == "checked" {
         return replay_with(&checked(trace)?, trace);
     }
@@ -114,6 +122,15 @@ pub fn replay(trace: &Trace) -> Result<Replayed, ReplayError> {
         return replay_with(&alarm.on(checked(trace)?), trace);
     }
     Err(ReplayError::NoSemantics { name: name.into() })
+}
+
+/// The published semantics with the setup of a trace.
+pub(crate) fn published_suite(trace: &Trace) -> Result<Published, ReplayError> {
+    let found = Published::of_setup(&trace.setup).filter(|found| found.name() == trace.semantics);
+    found.ok_or_else(|| ReplayError::Setup {
+        semantics: trace.semantics.clone(),
+        why: "it names no variant of it".into(),
+    })
 }
 
 /// The core with the setup of a trace.

@@ -1,7 +1,7 @@
 //! A semantics with a few concrete mutations only.
 
 use crate::graph::Graph;
-use crate::semantics::{Breach, Clause, Competition, Judged, Semantics, Step};
+use crate::semantics::{Breach, Clause, Competition, Delivery, Judged, Semantics, Step};
 use crate::why::{Claim, Standing, Target};
 use std::sync::Arc;
 
@@ -93,6 +93,18 @@ impl<S: Semantics> Semantics for Restricted<S> {
         wholes.map(|whole| Self { whole: Arc::new(whole), mutations: self.mutations.clone() }).collect()
     }
 
+    fn delivery(&self) -> Delivery {
+        self.whole.delivery()
+    }
+
+    fn differ(&self, left: &S::State, right: &S::State) -> Option<String> {
+        self.whole.differ(left, right)
+    }
+
+    fn judges(&self, clause: &str) -> bool {
+        self.whole.judges(clause)
+    }
+
     fn judge(&self, state: &S::State) -> Result<Judged, Breach> {
         self.whole.judge(state)
     }
@@ -167,8 +179,8 @@ impl<S: Semantics> Semantics for Restricted<S> {
         self.whole.claims_held(state, target)
     }
 
-    fn ends(&self, delta: &S::Delta, claim: &Claim) -> bool {
-        self.whole.ends(delta, claim)
+    fn ends(&self, delta: &S::Delta, target: &Target, claim: &Claim) -> bool {
+        self.whole.ends(delta, target, claim)
     }
 
     fn standing(&self, state: &S::State, target: &Target, claim: &Claim) -> Standing {

@@ -4,7 +4,7 @@ use super::space::{HAPPENINGS, Schedules};
 use super::{ScheduleBound, trace};
 use crate::progress::Progress;
 use crate::search::{COUNTEREXAMPLE_MAX, Findings, find_fault, search};
-use crate::semantics::{Clause, Semantics};
+use crate::semantics::{Breach, Clause, Delivery, Semantics};
 use crate::trace::{CannotHappen, Trace};
 use crate::verdict::{RunReport, StateCounts};
 use std::sync::Arc;
@@ -40,7 +40,7 @@ impl<S: Semantics> ScheduleRun<S> {
         let schedules = Schedules::new(self.semantics.clone(), self.bound);
         let (schedules, found) = search(schedules, self.second_engine, progress);
         let (judged, diamonds) = schedules.judged();
-        let findings = Findings {
+        let mut findings = Findings {
             nodes: "schedules",
             clauses: self.clauses(),
             seen: self.witnesses(schedules.happened),
@@ -56,13 +56,19 @@ impl<S: Semantics> ScheduleRun<S> {
             operations: self.semantics.steps(&self.semantics.initial(), 0).len(),
             ..RunReport::new(self.name.clone(), "L2", self.semantics.name(), progress.seconds())
         };
-        let broken = findings.breach.is_some();
+        let counterexample = findings.breach.as_ref().and_then(|_| self.counterexample());
+        let (breach, trace) = counterexample.unzip();
+        findings.breach = breach.or(findings.breach);
         let report = found.report(findings, run);
-        report.with_trace(if broken { self.counterexample() } else { None })
+        report.with_trace(trace)
     }
 
     fn clauses(&self) -> Vec<Clause> {
-        self.semantics.clauses().into_iter().chain(QUIESCENCE).collect()
+        let own = QUIESCENCE.into_iter().filter(|clause| self.semantics.judges(clause.id));
+        // In every order this layer delivers only where the order is free.
+        let free = self.semantics.delivery() == Delivery::Any;
+        let judged = self.semantics.clauses().into_iter().filter(|clause| free || clause.id != "JOIN-3");
+        judged.chain(own).collect()
     }
 
     /// What must have happened, given the bound.
@@ -70,15 +76,16 @@ impl<S: Semantics> ScheduleRun<S> {
         let several = self.bound.everybody() > 1 && self.bound.mutations > 0;
         let restarts = self.bound.restarts > 0;
         let resynchronises = several && self.bound.resynchronisations > 0;
-        let expected = [several, several, several, restarts, restarts, resynchronises];
+        let lossy = several && self.semantics.delivery() == Delivery::Any;
+        let expected = [several, lossy, lossy, restarts, restarts, resynchronises];
         let named = HAPPENINGS.iter().enumerate().zip(expected).filter(|(_, expected)| *expected);
         named.map(|((bit, name), _)| ((*name).into(), happened >> bit & 1 == 1)).collect()
     }
 
     /// The shortest way to a violation.
-    fn counterexample(&self) -> Option<Result<Trace, CannotHappen>> {
+    fn counterexample(&self) -> Option<(Breach, Result<Trace, CannotHappen>)> {
         let mut schedules = Schedules::new(self.semantics.clone(), self.bound);
         let found = find_fault(&mut schedules, COUNTEREXAMPLE_MAX)?;
-        Some(trace::write(&mut schedules, &self.clauses(), &found))
+        Some((found.fault.breach.clone(), trace::write(&mut schedules, &self.clauses(), &found)))
     }
 }

@@ -2,10 +2,10 @@
 
 use super::state::{Event, Message, NO_ANSWER, Schedule};
 use super::{RESYNCHRONISATIONS_MAX, ScheduleBound};
-use crate::replay::{ALL_DELIVERED, ALL_RESYNCHRONISED};
+use crate::replay::{ALL_RESYNCHRONISED, all_delivered};
 use crate::search::Space;
-use crate::semantics::{Breach, Semantics};
-use crate::tables::{DeltaId, StateId, Tables};
+use crate::semantics::{Breach, Delivery, Semantics};
+use crate::tables::{DeltaId, NONE, StateId, Tables};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::Arc;
 
@@ -92,7 +92,13 @@ impl<S: Semantics> Schedules<S> {
         }
         let under_way: Vec<(Message, usize)> = at.under_way(self.bound.everybody()).collect();
         for (message, replica) in under_way {
-            self.deliver(at, message, replica, out)?;
+            match self.semantics.delivery() {
+                Delivery::Any => self.deliver(at, message, replica, out)?,
+                Delivery::Once if at.is_next(message, replica) => {
+                    self.deliver_once(at, message, replica, out)?;
+                }
+                Delivery::Once => {}
+            }
         }
         if at.restarts() < self.bound.restarts {
             self.restart(at, out);
@@ -118,7 +124,14 @@ impl<S: Semantics> Schedules<S> {
         for step in moves.iter() {
             let event = Event::Mutate { replica, delta: step.delta };
             let mut next = *at;
-            next.states[replica] = self.receive(before, step.delta, event)?;
+            next.states[replica] = match step.after {
+                NONE => self.receive(before, step.delta, event)?,
+                after => {
+                    let judged = self.judge_state(after);
+                    judged.map_err(|breach| ScheduleFault { breach, event: Some(event) })?;
+                    after
+                }
+            };
             next.broadcast(replica, step.delta, self.bound.everybody());
             out.push((event, next));
         }
@@ -149,6 +162,22 @@ impl<S: Semantics> Schedules<S> {
         }
         // What changes nothing leads where losing it leads; that it changes nothing was judged above.
         self.happened |= 1 << 2 | u32::from(after == at.states[replica]) << 1;
+        Ok(())
+    }
+
+    fn deliver_once(
+        &mut self,
+        at: &Schedule,
+        message: Message,
+        replica: usize,
+        out: &mut Vec<(Event, Schedule)>,
+    ) -> Found {
+        let event = Event::Deliver { replica, message, again: false };
+        let mut next = *at;
+        next.states[replica] = self.receive(at.states[replica], at.content(message), event)?;
+        next.remove(message, replica);
+        self.happened |= 1;
+        out.push((event, next));
         Ok(())
     }
 
@@ -220,6 +249,11 @@ impl<S: Semantics> Schedules<S> {
     pub fn judge(&mut self, at: &Schedule) -> Result<(), Breach> {
         self.judge_state(self.initial)?;
         let everybody = self.bound.everybody();
+        if self.semantics.delivery() == Delivery::Once {
+            // Moments at which nothing is under way follow from every other.
+            let quiet = at.under_way(everybody).next().is_none();
+            return if quiet { self.judge_equal(&at.states[..everybody]) } else { Ok(()) };
+        }
         let mut ends = Vec::with_capacity(everybody);
         for replica in 0..everybody {
             let mut state = at.states[replica];
@@ -228,10 +262,20 @@ impl<S: Semantics> Schedules<S> {
             }
             ends.push(state);
         }
-        if ends.iter().any(|end| *end != ends[0]) {
-            return Err(Breach::new("JOIN-5", ALL_DELIVERED));
-        }
+        self.judge_equal(&ends)?;
         self.judge_resynchronised(at)
+    }
+
+    fn judge_equal(&self, ends: &[StateId]) -> Result<(), Breach> {
+        let first = ends.first().copied().unwrap_or(self.initial);
+        for (replica, &end) in ends.iter().enumerate().filter(|(_, end)| **end != first) {
+            if let Some(what) = self.semantics.differ(&self.tables.state(first), &self.tables.state(end))
+                && self.semantics.judges("JOIN-5")
+            {
+                return Err(Breach::new("JOIN-5", all_delivered(replica, &what)));
+            }
+        }
+        Ok(())
     }
 
     /// The first replica asks everybody, then everybody asks the first.

@@ -171,6 +171,16 @@ impl Schedule {
         }
     }
 
+    /// Whether nothing that its author sent before a message is still under way to a replica.
+    pub(super) fn is_next(&self, message: Message, to: usize) -> bool {
+        match message {
+            Message::Delta { author, made } => {
+                (0..made).all(|made| self.in_flight & bit(author, made, to) == 0)
+            }
+            Message::Answer(_) => true,
+        }
+    }
+
     /// Broadcasts a delta to everybody else.
     pub(super) fn broadcast(&mut self, author: usize, delta: DeltaId, everybody: usize) {
         let made = self.made(author);

@@ -70,6 +70,9 @@ pub fn why(trace: &Trace, step: usize, replica: &str, element: &str) -> Result<W
     if gallery::is_published(trace) {
         return of_gallery(trace, step, at, &target);
     }
+    if name.starts_with("published") {
+        return why_with(&replay::published_suite(trace)?, trace, step, at, &target);
+    }
     if name == "checked" {
         return why_with(&replay::checked(trace)?, trace, step, at, &target);
     }
@@ -100,7 +103,7 @@ pub fn why_with<S: Semantics>(
         sent.iter().map(|message| message.deltas.iter().flat_map(claims).collect()).collect();
     let ends = |message: usize, claim: &Claim| {
         let deltas = sent.get(message).map(|message| &message.deltas);
-        deltas.is_some_and(|deltas| deltas.iter().any(|delta| semantics.ends(delta, claim)))
+        deltas.is_some_and(|deltas| deltas.iter().any(|delta| semantics.ends(delta, target, claim)))
     };
     let standing = |claim: &Claim| semantics.standing(state, target, claim);
     tell(trace, step, replica, target, Evidence { held, messages, ends: &ends, standing: &standing })
