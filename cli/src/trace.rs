@@ -16,6 +16,7 @@ that arrives, and what breaks at the end.";
 const AFTER: &str = r"Examples:
   dsr trace dsr-traces/01-JOIN-3.trace.json                               in the terminal
   dsr trace dsr-traces/01-JOIN-3.trace.json --to svg --output join-3.svg  a drawing
+  dsr trace dsr-traces/01-JOIN-3.trace.json --to rust --output join_3.rs  a test that replays it
   dsr trace dsr-traces/01-JOIN-3.trace.json --to html --output join-3.html  step by step, in a browser
 
 For ShiViz (https://bestchai.bitbucket.io/shiviz/), paste the log and this regular expression:
@@ -53,6 +54,8 @@ enum Target {
     Html,
     #[value(help = "A log with vector clocks for ShiViz")]
     Shiviz,
+    /// A test in Rust that replays it
+    Rust,
 }
 
 impl Target {
@@ -63,6 +66,7 @@ impl Target {
             Self::Mermaid => render::Target::Mermaid,
             Self::Svg => render::Target::Svg,
             Self::Shiviz => render::Target::Shiviz,
+            Self::Rust => render::Target::Rust,
         };
         Ok(render::render(&trace, target)?)
     }

@@ -6,6 +6,7 @@
 
 mod diagram;
 mod mermaid;
+mod rust;
 mod shiviz;
 mod svg;
 mod text;
@@ -27,6 +28,8 @@ pub enum Target {
     /// A log for `ShiViz`, to be read with this regular expression:
     /// `(?<event>.*)\n(?<host>\S*) (?<clock>\{.*\})`
     Shiviz,
+    /// A test in Rust that replays it.
+    Rust,
 }
 
 /// Why a trace cannot be rendered.
@@ -53,5 +56,6 @@ pub fn render(trace: &Trace, target: Target) -> Result<String, RenderError> {
         Target::Mermaid => Ok(mermaid::mermaid(&diagram)),
         Target::Svg => Ok(svg::svg(&diagram)),
         Target::Shiviz => Ok(shiviz::shiviz(&diagram)),
+        Target::Rust => Ok(rust::rust(trace)),
     }
 }
