@@ -94,7 +94,7 @@ function clauseTable(runs) {
   }
   const sorted = [...clauses.values()].sort((one, other) => other.verdict - one.verdict || compare(one.group, other.group) || compare(one.clause, other.clause));
   const rows = sorted.map((line) => {
-    const traces = TRACES.map((trace, at) => ({ trace, at })).filter(({ trace }) => trace.finding.kind === "broken"
+    const traces = TRACES.map((trace, at) => ({ trace, at })).filter(({ trace }) => ["broken", "fails"].includes(trace.finding.kind)
       && trace.finding.clause === line.clause && (line.group === "" ? trace.layer !== "scenario" : trace.run === line.group));
     return [
       name(line.claim), [line.group && html("span", { class: "group" }, name(line.group), " "), name(line.clause)],
@@ -130,8 +130,11 @@ function witnessTable(runs) {
       counts.asked += 1;
     }
   }
+  const shown = TRACES.map((trace, at) => ({ trace, at })).filter(({ trace }) => trace.finding.kind === "seen");
+  const links = (clause) => shown.filter(({ trace }) => trace.finding.clause === clause)
+    .map(({ at }, place) => [" ", html("a", { href: fragment(at, 0) }, place === 0 ? "how" : "another")]);
   const rows = [...seen].sort(([one], [other]) => compare(one, other)).map(([clause, { what, seen, asked }]) => [
-    name(clause), name(what), html("span", { class: "verdict", "data-verdict": seen > 0 ? "exhaustive" : "vacuous" }, seen > 0 ? "◉ seen" : "○ never seen"), `${seen} of ${asked}`,
+    name(clause), [name(what), links(clause)], html("span", { class: "verdict", "data-verdict": seen > 0 ? "exhaustive" : "vacuous" }, seen > 0 ? "◉ seen" : "○ never seen"), `${seen} of ${asked}`,
   ]);
   return rows.length > 0 ? table("What had to be seen somewhere", ["Witness", "What", "Seen", "#In runs"], rows) : "";
 }

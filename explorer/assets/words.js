@@ -1,8 +1,8 @@
 // Steps and changes in words.
 
-const SIGNS = { broken: "✗", seen: "◉", holds: "✓", exhaustive: "✓", bounded: "◐", vacuous: "○", violated: "✗" };
+const SIGNS = { broken: "✗", fails: "✗", seen: "◉", holds: "✓", exhaustive: "✓", bounded: "◐", vacuous: "○", violated: "✗" };
 
-const FOUND = { broken: "does not hold", seen: "is seen", holds: "holds" };
+const FOUND = { broken: "does not hold", fails: "does not hold", seen: "is seen", holds: "holds" };
 
 // What the elements of a trace are called: a vertex by its name, with its id where another has the same, and an edge
 // by its ends.

@@ -241,6 +241,7 @@ impl Job for ScenarioRun {
             ));
         }
         run.traces = scenario_traces(&report);
+        run.witnesses = property_traces(&report, scenario::Verdict::Witnessed).map(run_trace).collect();
         run
     }
 }
@@ -278,17 +279,29 @@ fn scenario_properties(report: &scenario::Report) -> Vec<PropertyReport> {
 fn scenario_traces(report: &scenario::Report) -> Vec<RunTrace> {
     let breach =
         report.breach.iter().filter_map(|breach| Some((breach.clause.to_string(), breach.trace.as_ref()?)));
-    let violated =
-        report.properties.iter().filter(|property| property.verdict == scenario::Verdict::Violated);
-    let properties = violated.filter_map(|property| Some((property.name.clone(), property.trace.as_ref()?)));
-    breach
-        .chain(properties)
-        .map(|(clause, trace)| RunTrace {
-            detail: clause.clone(),
-            steps: trace.steps.len(),
-            text: trace.to_string(),
-            json: serde_json::to_value(trace).unwrap_or_default(),
-            clause,
-        })
-        .collect()
+    breach.chain(property_traces(report, scenario::Verdict::Violated)).map(run_trace).collect()
+}
+
+/// The traces of the properties with a verdict.
+fn property_traces(
+    report: &scenario::Report,
+    verdict: scenario::Verdict,
+) -> impl Iterator<Item = (String, &scenario::Trace)> {
+    let decided = report.properties.iter().filter(move |property| property.verdict == verdict);
+    decided.filter_map(|property| Some((property.name.clone(), property.trace.as_ref()?)))
+}
+
+/// As a trace that can be drawn and replayed, or else as steps of the scenario.
+fn run_trace((clause, trace): (String, &scenario::Trace)) -> RunTrace {
+    let json = match &trace.run {
+        Some(run) => serde_json::to_value(run),
+        None => serde_json::to_value(trace),
+    };
+    RunTrace {
+        detail: clause.clone(),
+        steps: trace.steps.len(),
+        text: trace.to_string(),
+        json: json.unwrap_or_default(),
+        clause,
+    }
 }

@@ -150,6 +150,8 @@ pub struct Sent {
 pub enum FindingKind {
     /// A clause does not hold.
     Broken,
+    /// A property of a scenario does not hold.
+    Fails,
     /// Something is seen that had to be seen somewhere.
     Seen,
     /// Nothing broke.
@@ -176,7 +178,7 @@ impl FindingKind {
     /// A sign for drawings.
     pub const fn sign(self) -> char {
         match self {
-            Self::Broken => '✗',
+            Self::Broken | Self::Fails => '✗',
             Self::Seen => '◉',
             Self::Holds => '✓',
         }

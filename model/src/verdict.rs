@@ -157,6 +157,9 @@ pub struct RunReport {
     /// Counterexamples.
     #[serde(skip)]
     pub traces: Vec<RunTrace>,
+    /// Runs that show what a scenario had to see.
+    #[serde(skip)]
+    pub witnesses: Vec<RunTrace>,
 }
 
 /// A counterexample, for people and for programs.
@@ -194,6 +197,7 @@ impl RunReport {
             collision_bound: 0.0,
             notes: Vec::new(),
             traces: Vec::new(),
+            witnesses: Vec::new(),
         }
     }
 }

@@ -4,9 +4,11 @@ use dsr_core::{Dictionary, State, VertexId, view};
 use dsr_model::alarms::{Broken, Flaw, Sound};
 use dsr_model::checked::Checked;
 use dsr_model::checked::alphabet::Alphabet;
+use dsr_model::replay::replay;
 use dsr_model::scenario::{
     Coverage, IdleStep, Options, PropertyKind, Report, Scenario, ScenarioStep, Trace, Verdict, shipped,
 };
+use dsr_model::trace::FindingKind;
 use std::sync::Arc;
 
 /// A scenario on two rooms with a robot and a person in one of them.
@@ -311,6 +313,31 @@ fn law_a_false_property_yields_a_shortest_counterexample() {
         lines[4..].iter().any(|line| line.contains("person.lying = ") && line.contains("true")),
         "{lines:#?}"
     );
+    let run = trace.run.as_ref().unwrap();
+    assert_eq!((run.finding.kind, run.finding.clause.as_str()), (FindingKind::Fails, "no false alarm"));
+    assert_eq!(run.finding.replicas, ["mqtt agent"]);
+}
+
+/// What shipped scenarios see is recorded as every layer records runs, and happens again.
+/// `[spec: TRACE-1]` `[spec: TRACE-6]` `[spec: SCEN-13]`
+#[test]
+fn law_every_witness_is_a_trace_that_replays() {
+    let mut replayed = 0;
+    for (file, text) in shipped() {
+        let report = Scenario::read(text, file).unwrap().check(Options::default());
+        for property in report.properties.iter().filter(|property| property.verdict == Verdict::Witnessed) {
+            let run = property.trace.as_ref().and_then(|trace| trace.run.as_ref());
+            let run = run.unwrap_or_else(|| panic!("{file}: {} is not recorded", property.name));
+            assert_eq!((run.finding.kind, &run.finding.clause), (FindingKind::Seen, &property.name));
+            assert!(run.replicas.iter().all(|replica| {
+                replica.name != "a reader" || run.steps.iter().any(|step| step.replica == replica.name)
+            }));
+            let again = replay(run).unwrap_or_else(|error| panic!("{file}: {error}\n{run}"));
+            assert!(again.steps == run.steps.len() && again.judged.is_err());
+            replayed += 1;
+        }
+    }
+    assert!(replayed > 10, "{replayed}");
 }
 
 /// What never happens is reported, and so is a step that is never taken. `[spec: SCEN-12]` `[spec: SCEN-8]`

@@ -23,7 +23,7 @@ fn content(runs: &[RunReport], verdict: Verdict, seconds: f64, about: &About) ->
     let mut traces = Vec::new();
     let mut texts = Vec::new();
     for run in runs {
-        for example in &run.traces {
+        for example in run.traces.iter().chain(&run.witnesses) {
             match drawn(example) {
                 Some(trace) => traces.push(Shown { trace, origin: Origin::Run(run.name.clone()) }),
                 None => texts.push(text(run, example)),

@@ -103,7 +103,9 @@ impl<'s, S: Semantics> Ends<'s, S> {
         };
         let differs = |found: String| Err(ReplayError::Finding { expected: finding.to_string(), found });
         match finding.kind {
-            FindingKind::Seen => Ok(Err("what a scenario has to see is judged by its exploration")),
+            FindingKind::Seen | FindingKind::Fails => {
+                Ok(Err("properties of a scenario are judged by its exploration"))
+            }
             FindingKind::Broken if finding.clause == "CHECK-11" => {
                 Ok(Err("CHECK-11 is a clause of the search, not of the replicas"))
             }

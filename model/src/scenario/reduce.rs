@@ -11,20 +11,11 @@ use super::follow::{Followed, follow};
 use super::memo::DeltaId;
 use super::script::Conduct;
 use super::space::{Broken, Choice, SUBSET_DELTAS_MAX, Space};
-use super::trace::{Last, Trace, tell};
+use super::trace::{Last, Sought, Trace, tell};
 use crate::checked::Act;
 use crate::course::{Course, Event, Outcome, run};
 use crate::shrink::{Reduction, Shrinker};
 use std::cell::RefCell;
-
-/// What a trace shows, and what a reduced one has to show as well.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Finding {
-    /// The property of this index is decided.
-    Property(usize),
-    /// This clause breaks.
-    Breach(&'static str),
-}
 
 /// The most courses tried for one trace: each follows every script through its run.
 const TRIES_MAX: usize = 2_000;
@@ -34,11 +25,11 @@ pub(super) fn reduced<S: Replicated>(
     space: &mut Space<S>,
     way: &[Choice],
     last: Last,
-    finding: Finding,
+    finding: Sought,
 ) -> Trace {
     let semantics = space.memo.semantics.clone();
     let course = course(space, way, &last);
-    let whole = tell(space, way, last);
+    let whole = tell(space, way, last, finding);
     if semantics.initial() != space.memo.scenario.initial {
         return whole;
     }
@@ -50,7 +41,7 @@ pub(super) fn reduced<S: Replicated>(
     let shrinker = Shrinker { kinds: vec![Reduction::Event], tries_max: TRIES_MAX };
     let shrunk = shrinker.shrink(&semantics, &course, |_, course| shows(course).is_some());
     let Some((way, last)) = shows(&shrunk.course) else { return whole };
-    let trace = tell(&**space.borrow(), &way, last);
+    let trace = tell(&**space.borrow(), &way, last, finding);
     match whole.happenings().checked_sub(trace.happenings()) {
         // What is minimal is shown as it was found.
         None | Some(0) => whole,
@@ -104,16 +95,16 @@ fn shown<S: Replicated>(
     space: &mut Space<S>,
     course: &Course<Act>,
     followed: &Followed,
-    finding: Finding,
+    finding: Sought,
 ) -> Option<(Vec<Choice>, Last)> {
     let scenario = space.memo.scenario.clone();
     match finding {
-        Finding::Breach(clause) => {
+        Sought::Breach(clause) => {
             let broken = broken(space, course, followed, clause)?;
             Some((followed.shortest(), Last::Broken(broken)))
         }
-        Finding::Property(at) if scenario.properties[at].kind.is_of_ends() => ended(space, followed, at),
-        Finding::Property(at) => {
+        Sought::Property(at) if scenario.properties[at].kind.is_of_ends() => ended(space, followed, at),
+        Sought::Property(at) => {
             let property = &scenario.properties[at];
             let decides = |(state, _): &&(u32, Vec<DeltaId>)| {
                 property.is_decided_by(property.predicate.holds(space.memo.answers(*state), 0))
@@ -219,11 +210,11 @@ mod tests {
             let course = course(&space, &way, &Last::View(space.initial, node.pool.to_vec()));
             let followed = follow(&mut space, &course).expect("a way is a run of its scenario");
             for (at, property) in report.properties.iter().enumerate() {
-                let Some((_, last)) = shown(&mut space, &course, &followed, Finding::Property(at)) else {
+                let Some((_, last)) = shown(&mut space, &course, &followed, Sought::Property(at)) else {
                     continue;
                 };
-                let before = tell(&space, &way, last.clone());
-                let trace = reduced(&mut space, &way, last, Finding::Property(at));
+                let before = tell(&space, &way, last.clone(), Sought::Property(at));
+                let trace = reduced(&mut space, &way, last, Sought::Property(at));
                 let shortest =
                     property.trace.as_ref().expect("universal properties of shipped scenarios hold");
                 assert!(trace.mutations >= shortest.mutations, "{file}: {}", property.name);

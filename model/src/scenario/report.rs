@@ -73,7 +73,7 @@ pub struct IdleStep {
 }
 
 /// A clause that is broken.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct ScenarioBreach {
     /// The clause.
     pub clause: &'static str,
@@ -84,7 +84,7 @@ pub struct ScenarioBreach {
 }
 
 /// What was found of one property.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct PropertyReport {
     /// Its name.
     pub name: String,

@@ -4,9 +4,9 @@
 
 use super::explore::Replicated;
 use super::memo::{DeltaId, MoveKind};
-use super::reduce::{Finding, reduced};
+use super::reduce::reduced;
 use super::space::{Broken, Choice, Node, SUBSET_DELTAS_MAX, Space, subset};
-use super::trace::{Last, Trace};
+use super::trace::{Last, Sought, Trace};
 use rustc_hash::FxHashMap;
 use std::collections::VecDeque;
 
@@ -100,7 +100,7 @@ impl<'s, S: Replicated> Shortest<'s, S> {
             for (property, last) in decided {
                 wanted.retain(|known| *known != property);
                 let way = this.way(at);
-                traces.push((property, reduced(this.space, &way, last, Finding::Property(property))));
+                traces.push((property, reduced(this.space, &way, last, Sought::Property(property))));
             }
             wanted.is_empty()
         });
@@ -163,7 +163,7 @@ impl<'s, S: Replicated> Shortest<'s, S> {
                 this.space.states_of(&node.pool).err()
             });
             trace = broken.map(|broken| {
-                let (way, finding) = (this.way(at), Finding::Breach(broken.breach.clause));
+                let (way, finding) = (this.way(at), Sought::Breach(broken.breach.clause));
                 reduced(this.space, &way, Last::Broken(broken), finding)
             });
             trace.is_some()

@@ -1,10 +1,16 @@
 //! What happened, as a list of steps. `[spec: SCEN-13]`
 
+use super::Scenario;
 use super::explore::Replicated;
 use super::memo::{DeltaId, MoveKind, StateId};
 use super::script::Conduct;
 use super::space::{Broken, Choice, Space};
+use crate::checked::Act;
+use crate::course::Event;
 use crate::graph::Names;
+use crate::replay::replay_with;
+use crate::semantics::Breach;
+use crate::trace::{CannotHappen, FindingKind, Recorder};
 use serde::Serialize;
 use serde_json::Value as Json;
 use std::cmp::Reverse;
@@ -12,7 +18,7 @@ use std::collections::BTreeSet;
 use std::fmt;
 
 /// A counterexample or a witness.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Trace {
     /// How many of the steps mutate; no trace to the same finding has fewer.
     pub mutations: usize,
@@ -22,6 +28,9 @@ pub struct Trace {
     pub left_out: usize,
     /// What happened, in order.
     pub steps: Vec<ScenarioStep>,
+    /// The same as every layer tells it, unless it cannot be run again.
+    #[serde(skip)]
+    pub run: Option<crate::trace::Trace>,
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
@@ -104,35 +113,112 @@ pub(super) enum Last {
     Broken(Broken),
 }
 
-/// Tells a way and its end.
-pub(super) fn tell<S: Replicated>(space: &Space<S>, way: &[Choice], last: Last) -> Trace {
-    let replicas = space.memo.scenario.replicas.len();
-    let mut teller =
-        Teller { space, made: Vec::new(), known: vec![BTreeSet::new(); replicas], steps: Vec::new() };
+/// What a trace shows, and what a reduced one has to show as well.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Sought {
+    /// The property of this index is decided.
+    Property(usize),
+    /// This clause breaks.
+    Breach(&'static str),
+}
+
+/// Tells a way and its end, and records it.
+pub(super) fn tell<S: Replicated>(space: &Space<S>, way: &[Choice], last: Last, sought: Sought) -> Trace {
+    let scenario = &space.memo.scenario;
+    let names = scenario.replicas().map(str::to_owned).chain([READER.to_owned()]);
+    let mut teller = Teller {
+        space,
+        made: Vec::new(),
+        known: vec![BTreeSet::new(); scenario.replicas.len()],
+        steps: Vec::new(),
+        record: Ok(Recorder::new(&*space.memo.semantics, names)),
+    };
     for choice in way {
         teller.choose(choice);
     }
-    match last {
+    let shown_by = match last {
         Last::View(state, seen) => teller.view(state, &seen.into_iter().collect()),
         Last::End(state) => teller.end(state),
         Last::Broken(broken) => teller.broken(broken),
-    }
+    };
     let mutations = teller.steps.iter().filter(|step| matches!(step, ScenarioStep::Mutate { .. })).count();
-    Trace { mutations, left_out: 0, steps: teller.steps }
+    let run = teller.record.ok().map(|recorder| finish(recorder, scenario, sought, &teller.steps, shown_by));
+    // What a step that is not made would break cannot be shown by those that are.
+    let run = run.filter(|run| {
+        run.finding.kind != FindingKind::Broken || replay_with(&*space.memo.semantics, run).is_ok()
+    });
+    Trace { mutations, left_out: 0, steps: teller.steps, run }
+}
+
+/// The run as every layer tells it.
+fn finish<S: Replicated>(
+    mut recorder: Recorder<'_, S>,
+    scenario: &Scenario,
+    sought: Sought,
+    steps: &[ScenarioStep],
+    shown_by: Vec<usize>,
+) -> crate::trace::Trace {
+    let replicas = recorder.scribe().names(shown_by);
+    let finding = match (sought, steps.last()) {
+        (Sought::Breach(_), Some(ScenarioStep::Break { clause, detail })) => {
+            let breach = Breach::new(clause, detail);
+            crate::trace::Finding::broken(&recorder.runner().semantics().clauses(), &breach, replicas)
+        }
+        (Sought::Property(at), _) if scenario.properties.get(at).is_some() => {
+            let property = &scenario.properties[at];
+            let (kind, detail) = if property.kind.is_universal() {
+                (FindingKind::Fails, "it does not hold here")
+            } else {
+                (FindingKind::Seen, "it is seen here")
+            };
+            crate::trace::Finding {
+                kind,
+                clause: property.name.clone(),
+                what: property.why.clone(),
+                detail: detail.into(),
+                replicas,
+            }
+        }
+        _ => crate::trace::Finding {
+            kind: FindingKind::Seen,
+            clause: String::new(),
+            what: String::new(),
+            detail: "this is what happened".into(),
+            replicas,
+        },
+    };
+    recorder.drop_idle(READER);
+    let title = format!("{}: {}", scenario.name(), finding.clause);
+    recorder.finish(title, "scenario", "the fewest mutations that show it".into(), finding)
 }
 
 const READER: &str = "a reader";
 
-struct Teller<'s, S> {
+struct Teller<'s, S: Replicated> {
     space: &'s Space<S>,
     /// In order of their numbers.
     made: Vec<DeltaId>,
     /// Per replica, what it has received or made.
     known: Vec<BTreeSet<DeltaId>>,
     steps: Vec<ScenarioStep>,
+    /// The same, recorded, as long as it can be run again.
+    record: Result<Recorder<'s, S>, CannotHappen>,
 }
 
 impl<S: Replicated> Teller<'_, S> {
+    /// The position of a replica, or of the reader.
+    fn position(&self, replica: Option<usize>) -> usize {
+        replica.unwrap_or(self.known.len())
+    }
+
+    fn record(&mut self, event: &Event<Act>) {
+        if let Ok(recorder) = &mut self.record
+            && let Err(why) = recorder.record(event)
+        {
+            self.record = Err(why);
+        }
+    }
+
     fn name(&self, replica: Option<usize>) -> String {
         let replica = replica.and_then(|at| self.space.memo.scenario.replicas.get(at));
         replica.map_or(READER, |replica| &replica.name).to_owned()
@@ -144,6 +230,9 @@ impl<S: Replicated> Teller<'_, S> {
         let new: Vec<DeltaId> = deltas.into_iter().filter(|&delta| known.insert(delta)).collect();
         let number = |delta: &DeltaId| self.made.iter().position(|known| known == delta).map(|at| at + 1);
         let deltas: Vec<usize> = new.iter().filter_map(number).collect();
+        for &number in &deltas {
+            self.record(&Event::Deliver { replica: self.position(replica), message: number - 1 });
+        }
         if !deltas.is_empty() {
             self.steps.push(ScenarioStep::Receive { replica: self.name(replica), deltas });
         }
@@ -159,6 +248,9 @@ impl<S: Replicated> Teller<'_, S> {
             MoveKind::Skips => "skips",
             MoveKind::Stops => "stops",
         };
+        if let Ok(recorder) = &mut self.record {
+            recorder.happen(*replica, format!("{how} step {} of its script", script_step + 1));
+        }
         self.steps.push(ScenarioStep::Go { replica: name, script_step, how });
     }
 
@@ -172,6 +264,7 @@ impl<S: Replicated> Teller<'_, S> {
             }
             Conduct::Free { .. } => (None, step.acts.iter().map(ToString::to_string).collect()),
         };
+        self.record(&Event::Mutate { replica: *replica, mutations: step.acts.to_vec() });
         if !self.made.contains(&delta) {
             self.made.push(delta);
         }
@@ -197,7 +290,7 @@ impl<S: Replicated> Teller<'_, S> {
     }
 
     /// Somebody sees it: a replica that can have received just that, or else a reader.
-    fn view(&mut self, state: StateId, seen: &BTreeSet<DeltaId>) {
+    fn view(&mut self, state: StateId, seen: &BTreeSet<DeltaId>) -> Vec<usize> {
         let can = |known: &&BTreeSet<DeltaId>| known.is_subset(seen);
         let best = self
             .known
@@ -208,18 +301,21 @@ impl<S: Replicated> Teller<'_, S> {
         let who = best.map(|(at, _)| at);
         self.receive(who, seen.iter().copied());
         self.see(self.name(who), state);
+        vec![self.position(who)]
     }
 
-    fn end(&mut self, state: StateId) {
+    fn end(&mut self, state: StateId) -> Vec<usize> {
         for replica in 0..self.known.len() {
             self.receive(Some(replica), self.made.clone());
         }
         self.see("everybody".into(), state);
+        (0..self.known.len()).collect()
     }
 
-    fn broken(&mut self, broken: Broken) {
+    fn broken(&mut self, broken: Broken) -> Vec<usize> {
         self.receive(broken.replica, broken.received);
         self.steps.push(ScenarioStep::Break { clause: broken.breach.clause, detail: broken.breach.detail });
+        vec![self.position(broken.replica)]
     }
 }
 

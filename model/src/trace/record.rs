@@ -117,6 +117,11 @@ impl<'s, S: Semantics> Recorder<'s, S> {
         }
     }
 
+    /// Leaves out a replica to whom nothing has happened.
+    pub fn drop_idle(&mut self, name: &str) {
+        self.scribe.drop_idle(name);
+    }
+
     /// The trace of what happened.
     pub fn finish(self, title: String, layer: &str, bound: String, finding: Finding) -> Trace {
         let semantics = self.runner.semantics();

@@ -75,6 +75,15 @@ impl Scribe {
         }
     }
 
+    /// Leaves out a replica to whom nothing has happened.
+    pub fn drop_idle(&mut self, name: &str) {
+        let is_idle = self.steps.iter().all(|step| step.replica != name);
+        if let Some(at) = self.replicas.iter().position(|replica| replica.name == name && is_idle) {
+            self.replicas.remove(at);
+            self.graphs.remove(at);
+        }
+    }
+
     /// The steps so far.
     pub fn steps(&self) -> &[TraceStep] {
         &self.steps

@@ -26,7 +26,7 @@ pub(super) fn shape(event: &Event<'_>, x: usize, y: usize) -> String {
 /// The sign of what is found: a cross, an eye or a tick.
 pub(super) fn verdict(kind: FindingKind, x: usize, y: usize) -> String {
     match kind {
-        FindingKind::Broken => crossed("cross", x, y, 7),
+        FindingKind::Broken | FindingKind::Fails => crossed("cross", x, y, 7),
         FindingKind::Seen => format!(
             "<circle class=\"sight\" cx=\"{x}\" cy=\"{y}\" r=\"8\"/><circle class=\"full\" cx=\"{x}\" cy=\"{y}\" r=\"3\"/>"
         ),
