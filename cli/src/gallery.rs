@@ -83,15 +83,25 @@ fn checked(report: &RowReport) -> Option<String> {
 
 fn text(reports: &[RowReport], schedules: bool) -> String {
     let mut text = String::new();
-    add(&mut text, "row  found   steps   states  clause    checked  what\n");
+    let widest = reports.iter().map(|report| report.bound.chars().count()).max().unwrap_or(0).max(5);
+    let bound = "bound";
+    add(
+        &mut text,
+        format_args!(
+            "row  found   layer  {bound:<widest$}   states      s  steps  clause    checked  what goes wrong\n"
+        ),
+    );
     for report in reports {
         let clause = report.breach.as_ref().map_or("-", |breach| breach.clause);
         let checked = checked(report).unwrap_or_else(|| "-".into());
         let (row, found, title) = (report.row, report.found.word(), report.title);
-        let (steps, states) = (report.steps, report.states);
+        let RowReport { layer, bound, states, seconds, steps, .. } = report;
         add(
             &mut text,
-            format_args!("{row:<4} {found:<7} {steps:>5} {states:>8}  {clause:<9} {checked:<8} {title}\n"),
+            format_args!(
+                "{row:<4} {found:<7} {layer:<5}  {bound:<widest$} {states:>8} {seconds:>6.2}  {steps:>5}  {clause:<9} \
+                 {checked:<8} {title}\n"
+            ),
         );
         if let Some(reason) = report.reason {
             add(&mut text, format_args!("     {reason}\n"));
@@ -107,7 +117,6 @@ fn text(reports: &[RowReport], schedules: bool) -> String {
 
 /// Both runs as diagrams, and what becomes of it without its cause.
 fn add_schedule(text: &mut String, report: &RowReport) {
-    add(text, format_args!("\n{}, {:.2} s\n", report.bound, report.seconds));
     for (_, trace) in traces(report) {
         let drawn = render(trace, Target::Text).unwrap_or_else(|error| format!("cannot be drawn: {error}\n"));
         add(text, format_args!("\n{drawn}"));

@@ -99,7 +99,7 @@ impl Refusal {
                 "check that the file is complete, or run `dsr check` again"
             }
             Self::Trace(TraceError::NoFormat | TraceError::OtherFormat { .. }) => {
-                "give a file that `dsr check` wrote for L1 or L2; those of L0 and of scenarios have another form"
+                "give a trace file of `dsr check` or `dsr gallery`; L0 finds states, not runs, and writes those"
             }
             Self::Trace(TraceError::OtherVersion { .. }) => {
                 "use the version of dsr that wrote the file, or run `dsr check` again"

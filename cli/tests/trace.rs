@@ -107,7 +107,11 @@ fn law_what_is_no_file_or_no_json_is_told_with_its_place() {
 #[test]
 fn law_another_format_version_or_form_is_told_with_what_was_found() {
     let scenario = r#"{"mutations": 0, "steps": []}"#;
-    refused("scenario", scenario, &["found no `format`, expected \"dsr-trace\"", "L1 or L2"]);
+    refused(
+        "scenario",
+        scenario,
+        &["found no `format`, expected \"dsr-trace\"", "L0 finds states, not runs"],
+    );
     refused("format", r#"{"format": "other"}"#, &["found the format \"other\", expected \"dsr-trace\""]);
     let newer = counterexample().replace("\"version\": 2", "\"version\": 3");
     refused("version", &newer, &["found version 3 of the trace format, only version 2 is understood"]);

@@ -14,9 +14,12 @@ function overview(notice) {
   if (report) node.append(verdictBlock(report));
   if (tables() > 0) node.append(filterBox(node));
   if (gallery) node.append(galleryTable(gallery));
-  else if (TRACES.length > 0) node.append(traceTable());
+  else node.append(traceTable("Traces", (trace) => !report || trace.finding.kind !== "seen"));
   if (report) node.append(...examples(report));
-  if (report) node.append(clauseTable(report.runs), runTable(report.runs), witnessTable(report.runs), notes(report));
+  if (report) {
+    const seen = traceTable("What was seen, step by step", (trace) => trace.finding.kind === "seen");
+    node.append(clauseTable(report.runs), runTable(report.runs), witnessTable(report.runs), seen, notes(report));
+  }
   return node;
 }
 
@@ -39,12 +42,13 @@ function verdictBlock({ verdict, runs, seconds }) {
     html("p", { class: "origin" }, facts.filter(Boolean).map((fact) => html("span", null, fact))));
 }
 
-function traceTable() {
-  const rows = TRACES.map((trace, at) => [
+function traceTable(title, isListed) {
+  const listed = TRACES.map((trace, at) => ({ trace, at })).filter(({ trace }) => isListed(trace));
+  const rows = listed.map(({ trace, at }) => [
     html("a", { href: fragment(at, 0) }, name(trace.title)), findingWord(trace.finding), name(trace.finding.clause),
     name(trace.layer), number(trace.steps.length), number(trace.replicas.length),
   ]);
-  return table("Traces", ["Trace", "Finding", "Clause", "Layer", "#Steps", "#Replicas"], rows);
+  return rows.length === 0 ? "" : table(title, ["Trace", "Finding", "Clause", "Layer", "#Steps", "#Replicas"], rows);
 }
 
 // Counterexamples that are no runs, as the checker prints them.

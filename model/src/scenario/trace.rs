@@ -187,7 +187,10 @@ fn finish<S: Replicated>(
             replicas,
         },
     };
-    recorder.drop_idle(READER);
+    // Whoever does nothing and shows nothing is not needed.
+    let idle =
+        scenario.replicas().chain([READER]).filter(|name| !finding.replicas.iter().any(|by| by == name));
+    idle.for_each(|name| recorder.drop_idle(name));
     let title = format!("{}: {}", scenario.name(), finding.clause);
     recorder.finish(title, "scenario", "the fewest mutations that show it".into(), finding)
 }
