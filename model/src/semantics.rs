@@ -162,6 +162,14 @@ pub trait Semantics: Debug + Send + Sync + 'static {
         Delivery::Any
     }
 
+    /// The author's state after a step.
+    fn author_state(&self, before: &Self::State, step: &Step<Self>) -> Self::State {
+        match self.delivery() {
+            Delivery::Any => self.join(before, &step.delta),
+            Delivery::Once => step.after.clone(),
+        }
+    }
+
     /// How two states differ that ought to be equal, in words if there is something to say; `None` if they
     /// count as equal. Whoever lets different states count as equal forgoes what L1 concludes from equality.
     fn differ(&self, left: &Self::State, right: &Self::State) -> Option<String> {

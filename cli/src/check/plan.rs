@@ -51,9 +51,13 @@ fn published(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
     if arguments.deep {
         return Err("the published semantics breaks at the least bounds: leave out --deep".into());
     }
-    let of_checked = |layer: &&Layer| matches!(layer, Layer::L0 | Layer::Scenario);
-    if let Some(layer) = arguments.layer.iter().find(of_checked) {
-        let prefix = if *layer == Layer::L0 { "L0" } else { "scenarios" };
+    let of_checked = arguments.layer.iter().find_map(|layer| match layer {
+        Layer::L0 => Some("L0"),
+        Layer::Walks => Some("walks"),
+        Layer::Scenario => Some("scenarios"),
+        Layer::L1 | Layer::L2 => None,
+    });
+    if let Some(prefix) = of_checked {
         let reason = published_suite::NOT_APPLICABLE.iter().find(|line| line.starts_with(prefix));
         let reason = reason.copied().unwrap_or(prefix);
         return Err(format!("{reason}; with --semantics published choose from l1,l2"));

@@ -271,10 +271,7 @@ impl<'s, S: Semantics> Runner<'s, S> {
             let step = allowed.then(|| self.semantics.mutate(&now, identity, mutation)).flatten();
             let refused = || StepError::Refused { replica, at, mutation: mutation.to_string() };
             let step = step.ok_or_else(refused)?;
-            let after = match self.semantics.delivery() {
-                Delivery::Any => self.semantics.join(&now, &step.delta),
-                Delivery::Once => step.after.clone(),
-            };
+            let after = self.semantics.author_state(&now, &step);
             locals.push(Local { before: std::mem::replace(&mut now, after), step });
         }
         Ok(locals)

@@ -146,7 +146,7 @@ impl<S: Semantics> Carrier<'_, S> {
                 continue;
             }
             let Some(step) = semantics.mutate(&now, identity, &mutation) else { continue };
-            now = semantics.join(&now, &step.delta);
+            now = semantics.author_state(&now, &step);
             let old = self.recorded.deltas.get(event).and_then(|deltas| deltas.get(place));
             self.made.extend(old.map(|old| (old.clone(), step.delta)));
             kept.push(mutation);

@@ -234,7 +234,7 @@ impl<S: Semantics> Walker<'_, S> {
             let of_kind = by_kind.get(kind)?;
             let mutation = of_kind.get(self.dice.below(of_kind.len()))?;
             if let Some(step) = semantics.mutate(state, identity, mutation) {
-                return Some((mutation.clone(), semantics.join(state, &step.delta)));
+                return Some((mutation.clone(), semantics.author_state(state, &step)));
             }
         }
         None

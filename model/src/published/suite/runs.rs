@@ -10,8 +10,9 @@ use crate::verdict::{RunReport, StateCounts, Verdict};
 use std::sync::Arc;
 
 /// What of the suite of the checked semantics says nothing of this one, and why.
-pub const NOT_APPLICABLE: [&str; 5] = [
+pub const NOT_APPLICABLE: [&str; 6] = [
     "L0: its laws speak of contexts and records of the checked semantics",
+    "walks: they lose, repeat and reorder whatever they like, which the published semantics makes no claim to bear",
     "scenarios: their agents make mutations of the checked semantics",
     "L1 = L2: L1 stands for L2 only where deltas commute, which is violated here",
     "restarts, resynchronisation and joiners: they need the published exchange of whole graphs, which `dsr gallery` has",
