@@ -195,7 +195,7 @@ impl Arguments {
         let started = std::time::Instant::now();
         let mut runs = live::run_all(&jobs, limits, self.total_seconds_max, usize::from(self.jobs));
         runs.sort_by_key(|run| LAYERS.iter().position(|layer| *layer == run.layer));
-        let traces = write_traces(&mut runs, &self.traces);
+        let traces = write_traces(&mut runs, &self.traces, !self.files.is_empty());
         let worst = runs.iter().map(|run| run.verdict).max().unwrap_or(Verdict::Vacuous);
         let unseen = if self.is_whole_suite() { suite::unseen(&runs) } else { Vec::new() };
         let verdict = if unseen.is_empty() { worst } else { worst.max(Verdict::Vacuous) };
@@ -241,13 +241,18 @@ impl Arguments {
     }
 }
 
-/// Writes each counterexample to a file of its own and names it in the report.
-fn write_traces(runs: &mut [RunReport], directory: &Path) -> Result<(), String> {
+/// Writes each counterexample to a file of its own and names it in the report; and if asked for, what a scenario had
+/// to see.
+fn write_traces(runs: &mut [RunReport], directory: &Path, witnesses: bool) -> Result<(), String> {
     let mut number = 0;
     for run in runs {
-        for trace in run.traces.clone() {
+        let seen = run.witnesses.clone().into_iter().filter(|_| witnesses);
+        for trace in run.traces.clone().into_iter().chain(seen) {
             number += 1;
-            let file = directory.join(format!("{number:02}-{}.trace.json", trace.clause));
+            // A property's name may hold what a file's may not.
+            let plain = |letter: char| if letter.is_alphanumeric() || letter == '-' { letter } else { '_' };
+            let name: String = trace.clause.chars().map(plain).collect();
+            let file = directory.join(format!("{number:02}-{name}.trace.json"));
             let text = serde_json::to_string_pretty(&trace.json).unwrap_or_default();
             let written = std::fs::create_dir_all(directory).and_then(|()| std::fs::write(&file, text));
             written.map_err(|error| {
