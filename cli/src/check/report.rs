@@ -162,8 +162,9 @@ fn add_witnesses(text: &mut String, runs: &[RunReport]) {
     }
     add(text, "\nseen (runs that saw it / runs that had to or did)\n");
     for (witness, (saw, asked)) in seen {
-        let files = runs.iter().flat_map(|run| &run.properties).filter(|property| property.clause == witness);
-        let file = files.filter_map(|property| property.trace.as_deref()).next().unwrap_or_default();
+        let mut its =
+            runs.iter().flat_map(|run| &run.properties).filter(|property| property.clause == witness);
+        let file = its.find_map(|property| property.trace.as_deref()).unwrap_or_default();
         let line = format!("  {witness:<58} {saw}/{asked}  {file}");
         add(text, format_args!("{}\n", line.trim_end()));
     }

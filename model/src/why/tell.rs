@@ -174,6 +174,14 @@ pub(super) fn tell(
         return Err(WhyError::Nothing { what, step });
     }
     told.sort_by_key(|told| told.standing.fate as u8);
+    let names = trace.names();
+    for told in &mut told {
+        // An edge that was ever shown is better told by the names of its ends.
+        let name = names.get(&told.claim.dot);
+        if matches!(target, Target::Edge { .. }) && name != told.claim.dot {
+            told.claim.text = format!("edge {name}");
+        }
+    }
     Ok(Why { target: what, replica: name.clone(), step, claims: told })
 }
 
