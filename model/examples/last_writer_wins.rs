@@ -1,6 +1,7 @@
 //! A semantics of one's own in the checker: a graph in which the last writer wins. See
 //! `docs/your-own-semantics.md`.
 
+use dsr_model::graph;
 use dsr_model::histories::{Bound, HistoryRun};
 use dsr_model::progress::{Limits, Progress};
 use dsr_model::semantics::{Breach, Clause, Judged, Semantics, Step};
@@ -108,6 +109,15 @@ impl Semantics for LastWriterWins {
             return Err(Breach::new("INV-2", "the edge from a to b has lost an end"));
         }
         Ok(Judged::default())
+    }
+
+    fn shows(&self, graph: &Graph) -> graph::Graph {
+        let shown = graph.iter().filter(|(_, written)| written.present);
+        let elements = shown.map(|(&(from, to), _)| match to {
+            "" => (from.into(), graph::Element::vertex(from, "node")),
+            to => (format!("{from} to {to}"), graph::Element::edge(from, "to", to)),
+        });
+        elements.collect()
     }
 
     fn clauses(&self) -> Vec<Clause> {

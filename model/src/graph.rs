@@ -126,7 +126,23 @@ impl Graph {
     }
 }
 
+impl FromIterator<(String, Element)> for Graph {
+    fn from_iter<I: IntoIterator<Item = (String, Element)>>(elements: I) -> Self {
+        Self { elements: elements.into_iter().collect(), remarks: BTreeSet::new() }
+    }
+}
+
 impl Element {
+    /// A vertex without attributes.
+    pub fn vertex(name: &str, vertex_type: &str) -> Self {
+        Self::Vertex { name: name.into(), vertex_type: vertex_type.into(), attributes: Attributes::new() }
+    }
+
+    /// An edge without attributes.
+    pub fn edge(from: &str, label: &str, to: &str) -> Self {
+        Self::Edge { from: from.into(), to: to.into(), label: label.into(), attributes: Attributes::new() }
+    }
+
     /// Its attributes.
     pub const fn attributes(&self) -> &Attributes {
         match self {
