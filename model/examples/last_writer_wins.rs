@@ -1,7 +1,7 @@
 //! A semantics of one's own in the checker: a graph in which the last writer wins. See
 //! `docs/your-own-semantics.md`.
 
-use dsr_model::graph;
+use dsr_model::graph::{self, Element};
 use dsr_model::histories::{Bound, HistoryRun};
 use dsr_model::progress::{Limits, Progress};
 use dsr_model::semantics::{Breach, Clause, Judged, Semantics, Step};
@@ -11,13 +11,10 @@ use std::fmt;
 use std::sync::Arc;
 
 /// A node by its name, or an edge between two.
-type Element = (&'static str, &'static str);
-/// Node `a`.
-const A: Element = ("a", "");
-/// Node `b`.
-const B: Element = ("b", "");
-/// The edge from `a` to `b`.
-const EDGE: Element = ("a", "b");
+type Key = (&'static str, &'static str);
+const A: Key = ("a", "");
+const B: Key = ("b", "");
+const EDGE: Key = ("a", "b");
 
 /// When an element was last written, by whom, and whether it is there since.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -28,7 +25,7 @@ pub struct Written {
 }
 
 /// Every element that was ever written.
-pub type Graph = BTreeMap<Element, Written>;
+pub type Graph = BTreeMap<Key, Written>;
 
 /// What a replica can do.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -113,9 +110,10 @@ impl Semantics for LastWriterWins {
 
     fn shows(&self, graph: &Graph) -> graph::Graph {
         let shown = graph.iter().filter(|(_, written)| written.present);
-        let elements = shown.map(|(&(from, to), _)| match to {
-            "" => (from.into(), graph::Element::vertex(from, "node")),
-            to => (format!("{from} to {to}"), graph::Element::edge(from, "to", to)),
+        let elements = shown.map(|(&(from, to), written)| {
+            let edge = Element::edge(from, "to", to);
+            let element = if to.is_empty() { Element::vertex(from, "node") } else { edge };
+            (format!("{from}{to}"), element.with("by", format!("r{}", written.replica + 1)))
         });
         elements.collect()
     }

@@ -143,6 +143,14 @@ impl Element {
         Self::Edge { from: from.into(), to: to.into(), label: label.into(), attributes: Attributes::new() }
     }
 
+    /// The same with an attribute more.
+    #[must_use]
+    pub fn with(mut self, name: &str, value: impl std::fmt::Display) -> Self {
+        let (Self::Vertex { attributes, .. } | Self::Edge { attributes, .. }) = &mut self;
+        attributes.insert(name.into(), value.to_string());
+        self
+    }
+
     /// Its attributes.
     pub const fn attributes(&self) -> &Attributes {
         match self {
