@@ -121,7 +121,7 @@ fn canary_a_broken_core_is_reported_with_its_seed() {
     let [trace] = &report.traces[..] else { panic!("one trace, not {}", report.traces.len()) };
     assert_eq!(trace.clause, "INTENT-1");
     assert!(trace.text.contains("remove_edge") && trace.text.contains("✗"), "{}", trace.text);
-    assert_eq!(trace.json["events"].as_array().map(Vec::len), Some(trace.steps));
+    assert_eq!(trace.json["steps"].as_array().map(Vec::len), Some(trace.steps));
     let notes = report.notes.join("\n");
     assert!(notes.contains("of seed 1: [INTENT-1]") && notes.contains("shrunk from"), "{notes}");
     let broken: Vec<&str> = report
