@@ -1,6 +1,6 @@
 //! Whoever joins, restarts, or does not hear.
 
-use super::{NODE, Row, free, set, setup};
+use super::{NODE, Row, free, in_order, set, setup};
 use crate::published::{CALL_TIME, Guard, Joiner, Operation, Order, Property, Setup, When};
 
 const DELETE: Operation = Operation::DeleteNode { node: 1 };
@@ -45,7 +45,9 @@ fn snapshots() -> Vec<Row> {
     let between = joined(setup(&[1, 2, 3], &[NODE], &between, diverge), 0, &[0], Guard::Always);
     let after = (Guard::Encoded, set(3));
     let first: [&[_]; 3] = [&[free(set(2)), after], &[], &[]];
-    let first = joined(setup(&[1, 2, 3], &[NODE], &first, diverge), 1, &[0, 1], Guard::Always);
+    // In any order there is a shorter one, which is that of row 14.
+    let first = in_order(setup(&[1, 2, 3], &[NODE], &first, diverge));
+    let first = joined(first, 1, &[0, 1], Guard::Always);
     vec![
         Row::new("13", "a joiner keeps the nodes that it knows as they are", missed)
             .unless("it hears everybody from the start", |setup| hear(setup, &[0, 1])),

@@ -73,18 +73,26 @@ pub fn rows() -> Vec<Row> {
 }
 
 /// A setup of replicas with these agents, each with its own number in what it makes, on a network that keeps
-/// the order of each pair, judged at rest.
+/// the order of each pair, judged at rest. Each makes as many calls as it is given, in any order, and the same again.
 fn setup(agents: &[u32], before: &[Operation], plays: &[&[(Guard, Operation)]], property: Property) -> Setup {
     Setup {
         variant: Variant::STAMPED,
         agents: agents.to_vec(),
         before: before.to_vec(),
         ignored: Vec::new(),
-        plays: plays.iter().map(|calls| Play::script(calls)).collect(),
+        plays: plays.iter().map(|calls| Play::free(calls)).collect(),
         powers: Powers::ordered(Order::Pair),
         property,
         when: When::Quiet,
     }
+}
+
+/// The same, with each replica's calls once each, in this order.
+fn in_order(mut setup: Setup) -> Setup {
+    for play in &mut setup.plays {
+        play.in_order = true;
+    }
+    setup
 }
 
 /// A call that is always allowed.

@@ -1,7 +1,7 @@
 //! One attribute that several write.
 
-use super::{NODE, REMOVE, Row, free, set, setup};
-use crate::published::{Guard, Operation, Order, Property, Setup, Variant, When};
+use super::{NODE, REMOVE, Row, free, in_order, set, setup};
+use crate::published::{Guard, Operation, Order, Play, Property, Setup, Variant, When};
 
 /// Node 1 without attributes.
 const BARE: Operation = Operation::InsertNode { id: 1, kind: "thing", name: "k", attributes: &[] };
@@ -23,7 +23,18 @@ fn empty() -> Vec<Row> {
     let plays: [&[_]; 3] = [&[free(set(40))], &[free(set(20)), free(set(30))], &[free(set(99))]];
     let on =
         |before| Setup { when: When::Always, ..setup(&[1, 2, 3], &[before], &plays, Property::Unreadable) };
+    let any = |value| Play::any(&[set(value), REMOVE], 2);
+    let two = setup(&[1, 2], &[NODE], &[&[], &[]], Property::Unreadable);
+    let two = Setup { plays: vec![any(11), any(21)], when: When::Always, ..two };
     vec![
+        Row::new(
+            "38",
+            "two agents suffice: a removal leaves a gap, and a write on it empties the register",
+            two,
+        )
+        .unless("nobody removes", |setup| {
+            setup.plays = vec![Play::any(&[set(11)], 2), Play::any(&[set(21)], 2)];
+        }),
         Row::new("1", "a write on a gap empties the register elsewhere", on(NODE))
             .unless("messages arrive after what caused them", causal),
         Row::new("1b", "a first write, on a gap, empties the register elsewhere", on(BARE))
@@ -88,7 +99,8 @@ fn users() -> Vec<Row> {
     let stale = setup(&[1, 2], &[TWO], &stale, Property::Lost(1, "z", 7));
     let signed = setup(&[1, 2], &[NODE], &[&[], &[free(REMOVE)]], Property::Divergence);
     let ignoring: [&[_]; 2] = [&[free(set(5)), free(set(6))], &[]];
-    let ignoring = setup(&[1, 2], &[BARE], &ignoring, Property::Lost(1, "x", 6));
+    // In any order the other write may be the last one.
+    let ignoring = in_order(setup(&[1, 2], &[BARE], &ignoring, Property::Lost(1, "x", 6)));
     vec![
         Row::new(
             "11",

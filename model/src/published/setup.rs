@@ -79,6 +79,11 @@ impl Play {
         Self { calls: calls.to_vec(), in_order: true, calls_max }
     }
 
+    /// As many calls as there are of these, in any order, each as often as it is allowed.
+    pub fn free(calls: &[(Guard, Operation)]) -> Self {
+        Self { in_order: false, ..Self::script(calls) }
+    }
+
     /// Up to so many of these, in any order.
     pub fn any(operations: &[Operation], calls_max: u8) -> Self {
         let calls = operations.iter().map(|&operation| (Guard::Always, operation)).collect();

@@ -9,8 +9,8 @@ use super::words::{add, one_line, wrap};
 /// Characters on a line of a note.
 const NOTE_WIDTH: usize = 60;
 
-/// A `sequenceDiagram`.
-pub(super) fn mermaid(diagram: &Diagram<'_>) -> String {
+/// A `sequenceDiagram`, with what changes or without.
+pub(super) fn mermaid(diagram: &Diagram<'_>, with_changes: bool) -> String {
     let mut text = String::from("sequenceDiagram\n");
     for (lane, name) in diagram.lanes.iter().enumerate() {
         add(&mut text, format_args!("    participant p{} as {}\n", lane + 1, escape(&one_line(name))));
@@ -30,7 +30,8 @@ pub(super) fn mermaid(diagram: &Diagram<'_>) -> String {
         } else {
             lines.extend(wrap(&format!("{step}. {}", diagram.words(row)), NOTE_WIDTH, 0));
         }
-        lines.extend(row.changes.iter().flat_map(|change| wrap(change, NOTE_WIDTH, 0)));
+        let changes = row.changes.iter().filter(|_| with_changes);
+        lines.extend(changes.flat_map(|change| wrap(change, NOTE_WIDTH, 0)));
         if !lines.is_empty() {
             add(&mut text, format_args!("    Note over p{lane}: {}\n", joined(&lines)));
         }

@@ -23,6 +23,8 @@ pub enum Target {
     Text,
     /// A sequence diagram in the language of Mermaid.
     Mermaid,
+    /// The same without what changes, for a glance.
+    MermaidBrief,
     /// A drawing.
     Svg,
     /// A log for `ShiViz`, to be read with this regular expression:
@@ -53,7 +55,8 @@ pub fn render(trace: &Trace, target: Target) -> Result<String, RenderError> {
     let diagram = Diagram::of(trace)?;
     match target {
         Target::Text => text::text(&diagram),
-        Target::Mermaid => Ok(mermaid::mermaid(&diagram)),
+        Target::Mermaid => Ok(mermaid::mermaid(&diagram, true)),
+        Target::MermaidBrief => Ok(mermaid::mermaid(&diagram, false)),
         Target::Svg => Ok(svg::svg(&diagram)),
         Target::Shiviz => Ok(shiviz::shiviz(&diagram)),
         Target::Rust => Ok(rust::rust(trace)),

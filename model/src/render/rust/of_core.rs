@@ -1,4 +1,4 @@
-//! A test of `dsr-core` that does what the replicas of a trace do.
+//! A test of `dsr-core` that does what the replicas of a trace do. `[spec: TRACE-8]`
 
 use super::{comment, raw, test_name};
 use crate::checked::replica_id;
