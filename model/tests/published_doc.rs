@@ -11,15 +11,13 @@ const END: &str = "<!-- end -->";
 
 /// The table of all rows, without times.
 fn table(reports: &[RowReport]) -> String {
-    let mut table = String::from(
-        "<!-- rows -->\n| row | what goes wrong | clause | steps | states | bound |\n|---|---|---|---:|---:|---|\n",
-    );
-    for report in reports {
+    let lines = reports.iter().map(|report| {
         let clause = report.breach.as_ref().map_or("-", |breach| breach.clause);
         let RowReport { row, title, steps, states, bound, .. } = report;
-        table += &format!("| {row} | {title} | {clause} | {steps} | {states} | {bound} |\n");
-    }
-    table + END
+        format!("| {row} | {title} | {clause} | {steps} | {states} | {bound} |\n")
+    });
+    let head = "| row | what goes wrong | clause | steps | states | bound |\n|---|---|---|---:|---:|---|\n";
+    format!("<!-- rows -->\n{head}{}{END}", lines.collect::<String>())
 }
 
 /// A row's diagram, and what the checked semantics does.
