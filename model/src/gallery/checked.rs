@@ -153,6 +153,13 @@ impl Replay<'_> {
             Happening::Restart(replica) => {
                 self.recorder.record(&Event::Restart { replica: *replica, keeps: false })
             }
+            Happening::Refuse => {
+                let joiner = setup.powers.joiner.as_ref();
+                let (replica, to) = joiner.map_or((0, 0), |joiner| (joiner.server, joiner.replica));
+                let message = self.recorder.runner().messages().len();
+                self.recorder.record(&Event::Answer { replica, to })?;
+                self.recorder.record(&Event::Deliver { replica: to, message })
+            }
             Happening::Find(_) | Happening::Tell => Ok(()),
         }
     }

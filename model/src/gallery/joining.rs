@@ -8,7 +8,8 @@ const WRITTEN: Guard = Guard::Shows(1, "x", 2);
 
 fn joined(mut setup: Setup, server: usize, hears: &[usize], asks: Guard) -> Setup {
     let replica = setup.replicas() - 1;
-    setup.powers.joiner = Some(Joiner { replica, server, hears: hears.to_vec(), asks, early: false });
+    let (early, again) = (false, false);
+    setup.powers.joiner = Some(Joiner { replica, server, hears: hears.to_vec(), asks, early, again });
     setup
 }
 
@@ -135,11 +136,19 @@ fn identity() -> Vec<Row> {
     let early = setup(&[1, 2], &[NODE], &[&[], &[]], Property::Missing(1));
     let mut early = Setup { when: When::Always, ..joined(early, 0, &[0], Guard::Always) };
     tell_early(&mut early, true);
+    let again = setup(&[1, 2], &[NODE], &[&[], &[]], Property::Missing(1));
+    let mut again = joined(again, 0, &[0], Guard::Always);
+    again.powers.restarts = Some((1, Guard::Shows(1, "x", 1)));
+    if let Some(joiner) = &mut again.powers.joiner {
+        joiner.again = true;
+    }
     let same = setup(&[1, 1], &[], &[&[free(NODE)], &[]], Property::Divergence);
     vec![
         Row::new("31", "joining returns before the graph is there", early)
             .unless("the graph is taken in first", |setup| tell_early(setup, false)),
         Row::new("32", "two agents with one number pass over each other's messages", same)
             .unless("their numbers differ", |setup| setup.agents = vec![1, 2]),
+        Row::new("32b", "a joiner that restarts is refused as a duplicate of itself", again)
+            .unless("it does not restart", |setup| setup.powers.restarts = None),
     ]
 }

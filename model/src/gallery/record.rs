@@ -151,6 +151,9 @@ impl Fork {
             Happening::Lose(copy) => (copy.to, Act::Lose { message: self.known(copy)? }),
             Happening::Encode => (joiner?.server, Act::Answer { to: setup.name(joins), sends }),
             Happening::Find(other) => (joins, Act::Happen { text: format!("finds {}", setup.name(*other)) }),
+            Happening::Refuse => {
+                (joins, Act::Happen { text: "asks again, and is refused as a duplicate of itself".into() })
+            }
             Happening::Tell => (joins, Act::Happen { text: "is told that it has joined".into() }),
             Happening::Restart(replica) => (*replica, Act::Restart { keeps: false }),
         };

@@ -23,6 +23,9 @@ impl Network {
     pub(super) fn has_joined(&self, world: &World) -> bool {
         let Some(joiner) = &self.setup.powers.joiner else { return true };
         let mut others = (0..self.setup.replicas()).filter(|&other| other != joiner.replica);
+        if joiner.again && world.restarted && !world.refused {
+            return false;
+        }
         let arrived = world.letters.iter().all(|letter| letter.topic != Topic::Graph);
         world.encoded && (arrived || world.told) && others.all(|other| world.heard >> other & 1 == 1)
     }
@@ -44,6 +47,9 @@ impl Network {
         }
         if world.letters.iter().any(|&letter| self.waits_to_be_told(world, letter)) {
             self.push(World { told: true, ..world.clone() }, Event::Tell, out);
+        }
+        if joiner.again && world.restarted && world.encoded && !world.refused {
+            self.push(World { refused: true, ..world.clone() }, Event::Refuse, out);
         }
         let server = self.replicas.get(world.replicas[joiner.server]);
         let asks = world.heard >> joiner.server & 1 == 1 && joiner.asks.allows(world, &server);

@@ -118,6 +118,9 @@ pub struct Joiner {
     pub asks: Guard,
     /// Whether it counts as joined once it has the answer, which another thread then takes in.
     pub early: bool,
+    /// Whether it asks again after a restart. Who has been answered counts as connected until its lease ends, so it
+    /// is refused as a duplicate of itself, and gives up.
+    pub again: bool,
 }
 
 /// What the network and the machines may do.

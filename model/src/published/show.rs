@@ -81,6 +81,8 @@ pub enum Happening {
     Encode,
     /// The joiner has the answer, and its user is told that it has joined.
     Tell,
+    /// The joiner asks again, and is refused as a duplicate of itself.
+    Refuse,
     /// A replica, by position, restarts.
     Restart(usize),
 }
@@ -108,6 +110,7 @@ impl Network {
             Event::Find { replica } => Happening::Find(replica),
             Event::Encode => Happening::Encode,
             Event::Tell => Happening::Tell,
+            Event::Refuse => Happening::Refuse,
             Event::Restart { replica } => Happening::Restart(replica),
         }
     }
@@ -153,6 +156,7 @@ impl Setup {
             Happening::Find(replica) => format!("the joiner finds {}", agent(*replica)),
             Happening::Encode => "the server encodes its whole graph for the joiner".into(),
             Happening::Tell => "the joiner has the answer, and is told that it has joined".into(),
+            Happening::Refuse => "the joiner asks again, and is refused as a duplicate of itself".into(),
             Happening::Restart(replica) => format!("{} restarts", agent(*replica)),
         }
     }

@@ -37,6 +37,8 @@ pub(super) struct World {
     pub(super) encoded: bool,
     /// Whether an early joiner has been told that it has joined.
     pub(super) told: bool,
+    /// Whether a joiner that asked again was refused.
+    pub(super) refused: bool,
     /// Whether somebody has restarted.
     pub(super) restarted: bool,
     /// How many messages were lost.
@@ -115,6 +117,8 @@ pub enum Event {
     Encode,
     /// The joiner has the answer, and its user is told that it has joined.
     Tell,
+    /// The joiner asks again, and is refused as a duplicate of itself.
+    Refuse,
     /// A replica stops and starts again from what it had at first; what was under way to it is gone.
     Restart {
         /// Who.
