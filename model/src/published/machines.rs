@@ -3,7 +3,7 @@
 use super::message::Topic;
 use super::setup::REPLICAS_MAX;
 use super::space::{Moment, Network};
-use super::world::{Event, Letter, World};
+use super::world::{Event, Letter, Restarted, World};
 
 impl Network {
     pub(super) fn joiner(&self) -> Option<usize> {
@@ -23,7 +23,7 @@ impl Network {
     pub(super) fn has_joined(&self, world: &World) -> bool {
         let Some(joiner) = &self.setup.powers.joiner else { return true };
         let mut others = (0..self.setup.replicas()).filter(|&other| other != joiner.replica);
-        if joiner.again && world.restarted && !world.refused {
+        if joiner.again && world.restart == Restarted::Once {
             return false;
         }
         let arrived = world.letters.iter().all(|letter| letter.topic != Topic::Graph);
@@ -48,8 +48,8 @@ impl Network {
         if world.letters.iter().any(|&letter| self.waits_to_be_told(world, letter)) {
             self.push(World { told: true, ..world.clone() }, Event::Tell, out);
         }
-        if joiner.again && world.restarted && world.encoded && !world.refused {
-            self.push(World { refused: true, ..world.clone() }, Event::Refuse, out);
+        if joiner.again && world.encoded && world.restart == Restarted::Once {
+            self.push(World { restart: Restarted::Refused, ..world.clone() }, Event::Refuse, out);
         }
         let server = self.replicas.get(world.replicas[joiner.server]);
         let asks = world.heard >> joiner.server & 1 == 1 && joiner.asks.allows(world, &server);
@@ -65,13 +65,13 @@ impl Network {
     }
 
     pub(super) fn restart(&mut self, world: &World, out: &mut Vec<(Event, Moment)>) {
-        let restarts = self.setup.powers.restarts.filter(|_| !world.restarted);
+        let restarts = self.setup.powers.restarts.filter(|_| world.restart == Restarted::Never);
         let Some((replica, guard)) = restarts else { return };
         if !guard.allows(world, &self.replicas.get(world.replicas[replica])) {
             return;
         }
         let mut next = world.clone();
-        next.restarted = true;
+        next.restart = Restarted::Once;
         next.replicas[replica] = self.initial[replica];
         next.letters.retain(|letter| letter.to != replica);
         self.push(next, Event::Restart { replica }, out);

@@ -4,7 +4,7 @@ use super::operation::Operation;
 use super::property::Property;
 use super::replica::Replica;
 use super::variant::Variant;
-use super::world::World;
+use super::world::{Restarted, World};
 use super::{AgentId, Key, Kind, NodeId, Time, Value};
 use std::collections::BTreeSet;
 
@@ -56,7 +56,7 @@ impl Guard {
             Self::Gone(node) => replica.deleted.contains(&node),
             Self::Made(other, calls) => world.made[other] >= calls,
             Self::Encoded => world.encoded,
-            Self::Restarted => world.restarted,
+            Self::Restarted => world.restart != Restarted::Never,
         }
     }
 }

@@ -20,6 +20,18 @@ pub struct Letter {
     pub message: u32,
 }
 
+/// Whether somebody has restarted.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+pub(super) enum Restarted {
+    /// Nobody has.
+    #[default]
+    Never,
+    /// Somebody has.
+    Once,
+    /// The joiner has, has asked again, and was refused.
+    Refused,
+}
+
 /// A moment. Replicas are numbers in the table of the space.
 #[derive(Clone, PartialEq, Eq, Hash, Debug, Default)]
 pub(super) struct World {
@@ -37,10 +49,8 @@ pub(super) struct World {
     pub(super) encoded: bool,
     /// Whether an early joiner has been told that it has joined.
     pub(super) told: bool,
-    /// Whether a joiner that asked again was refused.
-    pub(super) refused: bool,
-    /// Whether somebody has restarted.
-    pub(super) restarted: bool,
+    /// Whether somebody has restarted, and what came of it.
+    pub(super) restart: Restarted,
     /// How many messages were lost.
     pub(super) lost: u8,
     /// How many deliveries were repeated.
@@ -50,7 +60,7 @@ pub(super) struct World {
 impl World {
     /// How many calls were made, and encodings and restarts: what the clock counts.
     pub(super) fn depth(&self) -> u8 {
-        self.made.iter().sum::<u8>() + u8::from(self.encoded) + u8::from(self.restarted)
+        self.made.iter().sum::<u8>() + u8::from(self.encoded) + u8::from(self.restart != Restarted::Never)
     }
 
     /// Sorts the letters so that equal moments are equal.
