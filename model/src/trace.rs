@@ -45,7 +45,7 @@ pub struct Trace {
     pub semantics: String,
     /// What it takes to run that semantics again from the same start; the form is that semantics' own.
     pub setup: Value,
-    /// The layer that found it: `L1`, `L2`, `scenario`, `walks` or `gallery`.
+    /// The layer that found it: `L1`, `L2`, `L3`, `scenario` or `gallery`.
     pub layer: String,
     /// How far the search went that found it, in words.
     pub bound: String,
