@@ -2,6 +2,19 @@
 //!
 //! The checker never looks inside a state: it asks for mutations, delivers deltas, compares states, and
 //! lets the semantics itself judge what must hold of one state or one step.
+//!
+//! Six methods are needed; all others have defaults that forgo something.
+//!
+//! | for | methods |
+//! |---|---|
+//! | any layer | `name`, `initial`, `mutations`, `mutate`, `join`, `judge` |
+//! | more that is judged | `judge_step`, `judge_delivery`, `repair`, `join_states`, `clauses`, `judges` |
+//! | deltas that are no states | `delivery`, `author_state`, `differ`, `plain` |
+//! | checks that are not vacuous | `kind`, `kinds`, `kinds_in_use`, `witnesses` |
+//! | a faster search | `has_symmetry`, `rename_state`, `rename_delta`, `is_order_sensitive`; `stamp`, `restamped`, `next_stamp`, `compete`, `appearance` |
+//! | shrinking | `allows`, `join_deltas`, `readdressed`, `simpler`, `simpler_together`, `simpler_initial` |
+//! | traces that read well, and replay | `shows`, `mutation_text`, `delta_text`, `mutation_json`, `state_json`, `delta_json`; `setup_json`, `state_from_json`, `mutation_from_json` |
+//! | explanations | `claims`, `claims_held`, `ends`, `standing` |
 
 use crate::graph::{Element, Graph};
 use crate::why::{Claim, Fate, Standing, Target};
