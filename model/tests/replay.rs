@@ -7,7 +7,10 @@ use dsr_model::alarms::{A, B};
 use dsr_model::gallery::{rows, run_row};
 use dsr_model::graph::{Change, Element};
 use dsr_model::histories::{Bound, HistoryRun};
+use dsr_model::job::Job;
 use dsr_model::progress::{Limits, Progress};
+use dsr_model::published::suite::ClauseRun;
+use dsr_model::published::{Stamps, Variant, Workers};
 use dsr_model::replay::{ReplayError, replay};
 use dsr_model::schedules::{ScheduleBound, ScheduleRun};
 use dsr_model::trace::{Act, FindingKind, Trace, Unsound};
@@ -100,6 +103,28 @@ fn law_every_counterexample_of_a_broken_core_replays_to_its_clause() {
     assert!(traces.len() > 60, "{}", traces.len());
     // Only clauses of the search itself are not judged again.
     assert!(unjudged.iter().all(|clause| *clause == "CHECK-11"), "{unjudged:?}");
+}
+
+/// What the ordinary suite finds in the published semantics, by the clauses that break soon.
+/// `[spec: TRACE-6]` `[spec: CHECK-12]`
+#[test]
+fn law_every_counterexample_of_the_published_suite_replays_to_its_clause() {
+    for (workers, stamps) in [(Workers::Several, Stamps::Zero), (Workers::One, Stamps::Author)] {
+        for clause in ["MUT-0", "INV-2", "INV-3", "VIEW-7", "JOIN-3", "JOIN-5"] {
+            let run = ClauseRun { variant: Variant { workers, stamps }, clause };
+            let report = run.run(&Arc::new(Progress::new(Limits::default())));
+            let json = report.traces.first().expect("a counterexample").json.to_string();
+            let trace = Trace::read(&json).expect("a trace");
+            assert_eq!(trace.finding.clause, clause);
+            let replayed = replay(&trace).unwrap_or_else(|error| panic!("{clause}: {error}\n{trace}"));
+            assert_eq!((replayed.steps, replayed.judged), (trace.steps.len(), Ok(())), "{clause}");
+            let mut other = trace.clone();
+            other.setup["variant"] = "a third".into();
+            assert!(matches!(replay(&other), Err(ReplayError::Setup { .. })));
+            other.setup["variant"] = if workers == Workers::One { "upstream".into() } else { "fork".into() };
+            assert!(matches!(replay(&other), Err(ReplayError::Setup { .. })), "the name tells the variant");
+        }
+    }
 }
 
 /// The step that an error names.
