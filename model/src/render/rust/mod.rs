@@ -18,7 +18,8 @@ pub(super) fn rust(trace: &Trace) -> String {
 
 /// A name for the test.
 fn test_name(trace: &Trace) -> String {
-    let title = format!("{} {}", trace.finding.clause, trace.title);
+    let (clause, title) = (&trace.finding.clause, &trace.title);
+    let title = if title.contains(&**clause) { title.clone() } else { format!("{clause} {title}") };
     let plain = title
         .chars()
         .map(|letter| if letter.is_ascii_alphanumeric() { letter.to_ascii_lowercase() } else { ' ' });
