@@ -2,6 +2,7 @@
 
 mod alarms;
 mod check;
+mod conform;
 mod gallery;
 mod input;
 mod output;
@@ -33,6 +34,7 @@ struct Arguments {
 enum Command {
     Check(check::Arguments),
     Alarms(alarms::Arguments),
+    Conform(conform::Arguments),
     Gallery(gallery::Arguments),
     Trace(trace::Arguments),
     Replay(replay::Arguments),
@@ -47,6 +49,7 @@ impl Command {
         match self {
             Self::Check(arguments) => arguments.run(),
             Self::Alarms(arguments) => arguments.run(),
+            Self::Conform(arguments) => arguments.run(),
             Self::Gallery(arguments) => arguments.run(),
             Self::Trace(arguments) => arguments.run(),
             Self::Replay(arguments) => arguments.run(),

@@ -9,6 +9,7 @@ mod add_edge;
 mod add_vertex;
 mod attributes;
 mod error;
+mod error_kind;
 mod move_edge;
 mod new_edge;
 mod remove_edge;

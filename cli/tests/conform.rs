@@ -1,0 +1,78 @@
+//! `dsr conform` as users run it.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on says where")]
+
+mod common;
+
+use common::{dsr, dsr_with};
+
+const DSR: &str = env!("CARGO_BIN_EXE_dsr");
+
+/// `[spec: CONF-10]`
+#[test]
+fn law_the_core_passes_in_both_ways() {
+    let run = dsr(&["conform", "--format", "json"]);
+    assert_eq!((run.status, run.err.as_str()), (0, ""), "{run:?}");
+    let summaries: Vec<serde_json::Value> =
+        run.out.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(summaries.len(), 2);
+    assert_eq!(summaries[0], summaries[1]);
+    assert_eq!(summaries[0]["verdict"], "expected");
+    assert_eq!(summaries[0]["implementation"]["name"], "dsr-core");
+    let listed = dsr(&["conform", "list"]).out.lines().count();
+    assert_eq!(summaries[0]["counts"]["pass"], listed);
+}
+
+#[test]
+fn law_cases_are_chosen_by_a_pattern() {
+    let run = dsr(&["conform", "run", "--only", "universal/delivery/*", "--", DSR, "conform", "adapter"]);
+    assert_eq!((run.status, run.err.as_str()), (0, ""), "{run:?}");
+    assert!(run.out.ends_with("(\"dsr-core\" \"0.1.0\"): 6 pass\n"), "{run:?}");
+    let none = dsr(&["conform", "list", "--only", "delivery"]);
+    assert_eq!(none.status, 3, "{none:?}");
+    assert!(none.err.contains("no case matches \"delivery\""), "{none:?}");
+}
+
+/// `[spec: CONF-10]`
+#[test]
+fn canary_what_is_no_adapter_fails_with_its_verdict() {
+    let run = dsr(&["conform", "run", "--", DSR, "--version"]);
+    assert_eq!(run.status, 1, "{run:?}");
+    assert!(run.out.starts_with("protocol_error "), "{run:?}");
+    assert!(run.out.contains("it never said what it is): 3 protocol_error, "), "{run:?}");
+    assert!(run.out.ends_with(" not run\n"), "{run:?}");
+    assert_eq!(dsr(&["conform", "run"]).status, 3);
+}
+
+/// `[spec: CONF-1]` `[spec: CONF-2]`
+#[test]
+fn law_the_adapter_answers_line_by_line_and_ends_with_its_input() {
+    let input = concat!(
+        r#"{"id":1,"do":{"hello":{"protocols":[1],"spec":"0.1","corpus":"1.0.0"}}}"#,
+        "\n",
+        r#"{"id":2,"do":{"fly":{}}}"#,
+        "\n",
+        r#"{"id":3,"do":{"case_begin":{"case":"c","replicas":["a"]}}}"#,
+        "\n",
+        r#"{"id":4,"do":{"read":{"replica":"b"}}}"#,
+        "\n",
+        r#"{"id":5,"do":{"read":{"replica":"a"}}}"#,
+        "\n",
+    );
+    let run = dsr_with(&["conform", "adapter"], input.as_bytes());
+    assert_eq!((run.status, run.err.as_str()), (0, ""), "{run:?}");
+    let replies: Vec<&str> = run.out.lines().collect();
+    assert!(replies[0].starts_with(r#"{"id":1,"ok":{"protocol":1,"#), "{run:?}");
+    assert!(replies[1].starts_with(r#"{"id":2,"error":{"code":"rejected_input","#), "{run:?}");
+    assert_eq!(replies[2], r#"{"id":3,"ok":{}}"#);
+    assert!(replies[3].starts_with(r#"{"id":4,"error":{"code":"unknown","#), "{run:?}");
+    assert_eq!(
+        replies[4],
+        r#"{"id":5,"ok":{"view":{"vertices":{},"edges":[],"root":{"attributes":{}},"repairs":[]}}}"#
+    );
+    let bye = dsr_with(&["conform", "adapter"], b"{\"id\":1,\"do\":{\"bye\":{}}}\nnever read");
+    assert_eq!((bye.status, bye.out.as_str()), (0, "{\"id\":1,\"ok\":{}}\n"));
+    let garbage = dsr_with(&["conform", "adapter"], b"hello\n");
+    assert_eq!((garbage.status, garbage.out.as_str()), (3, ""));
+    assert!(garbage.err.contains("line 1 is no request"), "{garbage:?}");
+}

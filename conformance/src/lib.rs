@@ -1,0 +1,25 @@
+//! A corpus of cases that any implementation of the Deep State Representation can run, and the harness that judges
+//! it. The protocol is the chapter `spec/conformance.md`.
+//!
+//! An implementation takes part by an *adapter*: a program that reads one request a line and writes one reply a
+//! line. The harness is the network between its replicas and the only judge.
+//!
+//! | room | what is in it |
+//! |---|---|
+//! | [`protocol`] | requests and replies; their JSON Schemas are in `conformance/schema` |
+//! | [`case`] | the file of cases, and its strict reader |
+//! | [`corpus`] | the cases that ship |
+//! | [`adapter`], [`serve`] | what answers requests; the core as such; the loop over lines |
+//! | [`run`] | a case against an adapter, in-process or as a child process |
+//! | [`report`] | verdicts, counted |
+
+#![forbid(unsafe_code)]
+
+pub mod adapter;
+pub mod case;
+mod core_adapter;
+pub mod corpus;
+pub mod protocol;
+pub mod report;
+pub mod run;
+pub mod serve;

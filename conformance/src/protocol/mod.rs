@@ -1,0 +1,31 @@
+//! Requests and replies. `[spec: CONF-2]`
+
+mod mutation;
+mod reply;
+mod request;
+mod strict;
+mod unique;
+mod value;
+mod view;
+
+pub use mutation::{EdgeName, Link, Mutation};
+pub use reply::{
+    Answer, Decline, Done, ErrorCode, ErrorReply, Feature, HelloReply, Implementation, Limits, MadeDelta,
+    Reply, Shown, Skip,
+};
+pub use request::{
+    AnswerFor, CaseBegin, Command, Deliver, Hello, Mutate, Nothing, Read, ReplicaName, Request, Restart,
+};
+pub use strict::read_strictly;
+pub use unique::Unique;
+pub use value::Tagged;
+pub use view::{EdgeView, RootView, VertexView, View};
+
+/// The version of the protocol that this crate speaks. `[spec: CONF-3]`
+pub const PROTOCOL: u32 = 1;
+/// The most bytes that a line may have, its end excluded. `[spec: CONF-1]`
+pub const LINE_BYTES_MAX: usize = 1 << 20;
+/// The handle of the root. `[spec: CONF-5]`
+pub const ROOT: &str = "root";
+/// The name of the profile that looks at graphs alone.
+pub const OBSERVE: &str = "observe";

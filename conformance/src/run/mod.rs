@@ -1,0 +1,94 @@
+//! Cases against an adapter.
+
+mod child;
+mod judge;
+mod peer;
+mod session;
+
+pub use child::{ChildLimits, Program};
+pub use peer::{InProcess, Open, Peer, Trouble};
+
+use crate::case::Case;
+use crate::corpus;
+use crate::protocol::{Hello, HelloReply, PROTOCOL};
+use crate::report::{CaseResult, Report, Verdict};
+use session::Session;
+
+/// How often in sequence an adapter may fail to begin before the run ends.
+const FAILED_STARTS_MAX: usize = 3;
+
+/// Runs cases one after the other. An adapter that crashed, hung or broke the protocol is started anew for the next case;
+/// one that does not even begin ends the run, which is then incomplete. `[spec: CONF-9]`
+pub fn run(open: &mut dyn Open, cases: &[Case]) -> Report {
+    let mut report = Report::new(cases.len());
+    let mut session: Option<Session> = None;
+    let mut failed_starts = 0;
+    for case in cases {
+        let mut at_hand = match still_sound(session.take(), &mut report) {
+            Some(session) => session,
+            None => match begin(open) {
+                Ok(session) => session,
+                Err(trouble) => {
+                    failed_starts += 1;
+                    report.add(CaseResult::of(case, verdict_of(&trouble), trouble.to_string()));
+                    if failed_starts == FAILED_STARTS_MAX {
+                        break;
+                    }
+                    continue;
+                }
+            },
+        };
+        failed_starts = 0;
+        report.implementation.get_or_insert_with(|| at_hand.hello.implementation.clone());
+        match judge::judge(&mut at_hand, case) {
+            Ok((verdict, detail)) => {
+                report.add(CaseResult::of(case, verdict, detail));
+                session = Some(at_hand);
+            }
+            Err(trouble) => {
+                report.add(CaseResult::of(case, verdict_of(&trouble), at_hand.told(&trouble)));
+            }
+        }
+    }
+    if let Some(session) = still_sound(session, &mut report) {
+        session.bye();
+    }
+    report
+}
+
+/// The session, unless the adapter has said something or ended since its last reply: then that counts against the case
+/// that it was for. `[spec: CONF-12]`
+fn still_sound(session: Option<Session>, report: &mut Report) -> Option<Session> {
+    let mut session = session?;
+    let Some(trouble) = session.unasked() else { return Some(session) };
+    if let Some(last) = report.results.last_mut() {
+        (last.verdict, last.detail) = (verdict_of(&trouble), session.told(&trouble));
+    }
+    None
+}
+
+/// Opens an adapter and shakes hands. `[spec: CONF-3]`
+fn begin(open: &mut dyn Open) -> Result<Session, Trouble> {
+    let hello = Hello {
+        protocols: vec![PROTOCOL],
+        spec: corpus::SPEC_VERSION.into(),
+        corpus: corpus::VERSION.into(),
+    };
+    Session::begin(open.open()?, hello)
+}
+
+const fn verdict_of(trouble: &Trouble) -> Verdict {
+    match trouble {
+        Trouble::Crash { .. } => Verdict::Crash,
+        Trouble::Timeout { .. } => Verdict::Timeout,
+        Trouble::Protocol { .. } => Verdict::ProtocolError,
+    }
+}
+
+/// What an adapter said of itself, without running a case.
+pub fn hello(open: &mut dyn Open) -> Result<HelloReply, Trouble> {
+    let session = begin(open)?;
+    let hello = session.hello.clone();
+    session.bye();
+    Ok(hello)
+}

@@ -1,0 +1,91 @@
+//! An adapter over lines.
+
+use crate::adapter::{Adapter, answer};
+use crate::protocol::{Answer, Command, Decline, ErrorCode, LINE_BYTES_MAX, Reply, Request, read_strictly};
+use serde::Deserialize;
+use std::io::{self, BufRead, Read, Write};
+
+/// Why an adapter stops before the end of its input.
+#[derive(Debug, thiserror::Error)]
+pub enum ServeError {
+    /// The harness has gone, or the input cannot be read.
+    #[error("the connection broke: {0}")]
+    Io(#[from] io::Error),
+    /// A line is too long.
+    #[error("request {number} has more than {LINE_BYTES_MAX} bytes: send less in one line")]
+    TooLong {
+        /// Counted from 1.
+        number: usize,
+    },
+    /// A line is no request and has no id to reply to.
+    #[error("line {number} is no request ({why}): send {{\"id\": …, \"do\": {{…}}}}")]
+    NoRequest {
+        /// Counted from 1.
+        number: usize,
+        /// What is wrong with it.
+        why: serde_json::Error,
+    },
+    /// The reply cannot be written as JSON.
+    #[error("the reply to line {number} cannot be written: {why}")]
+    NoReply {
+        /// Counted from 1.
+        number: usize,
+        /// Why.
+        why: serde_json::Error,
+    },
+}
+
+/// Replies to each line of `input` by one line of `output`, flushed, until `bye` or the end. `[spec: CONF-1]`
+/// `[spec: CONF-2]`
+pub fn serve(
+    adapter: &mut dyn Adapter,
+    mut input: impl BufRead,
+    mut output: impl Write,
+) -> Result<(), ServeError> {
+    for number in 1.. {
+        let mut line = Vec::new();
+        let longest = LINE_BYTES_MAX as u64 + 1;
+        if input.by_ref().take(longest).read_until(b'\n', &mut line)? == 0 {
+            break;
+        }
+        if line.last() != Some(&b'\n') && line.len() > LINE_BYTES_MAX {
+            return Err(ServeError::TooLong { number });
+        }
+        let (reply, goes_on) =
+            reply_to(adapter, &line).map_err(|why| ServeError::NoRequest { number, why })?;
+        let text = serde_json::to_string(&reply).map_err(|why| ServeError::NoReply { number, why })?;
+        output.write_all(text.as_bytes())?;
+        output.write_all(b"\n")?;
+        output.flush()?;
+        if !goes_on {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// The reply to one line, and whether another may follow; an error if the line has no id to reply to.
+fn reply_to(adapter: &mut dyn Adapter, line: &[u8]) -> Result<(Reply<Answer>, bool), serde_json::Error> {
+    #[derive(Deserialize)]
+    struct Numbered {
+        id: u64,
+    }
+
+    let text = std::str::from_utf8(line).map_err(serde::de::Error::custom)?;
+    match read_strictly::<Request>(text) {
+        Ok(request) => {
+            let goes_on = !matches!(request.r#do, Command::Bye(_));
+            Ok((Reply::new(request.id, answer(adapter, &request.r#do)), goes_on))
+        }
+        Err(why) => {
+            let Numbered { id } = serde_json::from_str(text)?;
+            Ok((Reply::new(id, Err(Decline::error(ErrorCode::RejectedInput, why.to_string()))), true))
+        }
+    }
+}
+
+/// The line that `serve` would write, for an adapter in the same process.
+pub(crate) fn reply_line(adapter: &mut dyn Adapter, line: &str) -> Result<String, serde_json::Error> {
+    let (reply, _) = reply_to(adapter, line.as_bytes())?;
+    serde_json::to_string(&reply)
+}
