@@ -23,7 +23,7 @@ Examples:
   dsr conform list --only '*/refusals/*'
   echo '{\"id\":1,\"do\":{\"hello\":{\"protocols\":[1],\"spec\":\"0.1\",\"corpus\":\"1.0.0\"}}}' | dsr conform adapter
 
-Exit status: 0 as expected, 1 a case that is a MUST is not, 2 a case was not run or none passed, 3 wrong usage.";
+Exit status: 0 as expected, 1 a case that is a MUST is not, 2 a case was skipped or not run, or none passed, 3 wrong usage.";
 
 /// Arguments of `dsr conform`.
 #[derive(clap::Args, Debug)]

@@ -1,7 +1,5 @@
 //! `dsr conform` as users run it.
 
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on says where")]
-
 mod common;
 
 use common::{dsr, dsr_with};

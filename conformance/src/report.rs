@@ -87,11 +87,11 @@ impl CaseResult {
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
-    /// Some case passed, and none that is a MUST is bad. Exit status 0.
+    /// Some case passed, none was left out unannounced, and none that is a MUST is bad. Exit status 0.
     Expected,
     /// A case that is a MUST is bad. Exit status 1.
     Unexpected,
-    /// Nothing is bad, and cases were not run, or none passed. Exit status 2.
+    /// Nothing is bad, and cases were skipped or not run, or none passed. Exit status 2.
     Incomplete,
 }
 
@@ -145,7 +145,10 @@ impl Report {
         let is_bad = |result: &CaseResult| result.level == Level::Must && result.verdict.is_bad();
         if self.results.iter().any(is_bad) {
             Outcome::Unexpected
-        } else if self.results.len() < self.wanted || self.count(Verdict::Pass) == 0 {
+        } else if self.results.len() < self.wanted
+            || self.count(Verdict::Skip) > 0
+            || self.count(Verdict::Pass) == 0
+        {
             Outcome::Incomplete
         } else {
             Outcome::Expected

@@ -10,7 +10,9 @@ use std::time::{Duration, Instant};
 
 fn program(arguments: &[&str]) -> Program {
     let command = std::iter::once(env!("CARGO_BIN_EXE_conform-broken")).chain(arguments.iter().copied());
-    let limits = ChildLimits { reply: Duration::from_secs(3), ..ChildLimits::default() };
+    let hangs = matches!(arguments, ["hangs", ..] | ["silent"]);
+    let limits =
+        ChildLimits { reply: Duration::from_secs(if hangs { 3 } else { 60 }), ..ChildLimits::default() };
     Program { command: command.map(String::from).collect(), limits }
 }
 
@@ -135,9 +137,12 @@ fn law_what_is_left_out_is_no_pass() {
     let patterns = ["universal/recovery/*", "universal/delivery/twice", "universal/refusals/group"];
     let report = run(&mut program(&["modest"]), &cases(&patterns));
     let counted = [Verdict::Unsupported, Verdict::Skip, Verdict::Pass].map(|verdict| report.count(verdict));
-    assert_eq!((counted, report.outcome()), ([5, 1, 1], Outcome::Expected), "{report:#?}");
+    assert_eq!((counted, report.outcome()), ([5, 1, 1], Outcome::Incomplete), "{report:#?}");
     let summary = report.summary();
     assert_eq!(summary.families["universal"]["unsupported"], 5);
+    let announced =
+        run(&mut program(&["modest"]), &cases(&["universal/recovery/*", "universal/refusals/group"]));
+    assert_eq!(announced.outcome(), Outcome::Expected);
     let left_out = run(&mut program(&["modest"]), &cases(&["universal/recovery/*"]));
     assert_eq!(left_out.outcome(), Outcome::Incomplete);
 }
@@ -162,6 +167,15 @@ fn canary_a_join_that_counts_fails_where_deltas_come_twice() {
     let failed: Vec<&str> = failures(&report);
     assert_eq!(failed, ["universal/delivery/twice"]);
     assert!(report.results[0].detail.contains("+ found"), "{report:#?}");
+}
+
+/// `[spec: CONF-9]`
+#[test]
+fn canary_an_empty_answer_fails_where_something_was_lost() {
+    let report = run(&mut program(&["empty-answers"]), &cases(&["universal/recovery/*"]));
+    let expected =
+        ["newcomer", "both-ways", "lost-replacement"].map(|slug| format!("universal/recovery/{slug}"));
+    assert_eq!(failures(&report), expected);
 }
 
 /// `[spec: CONF-9]`

@@ -1,6 +1,7 @@
 //! Cases against an adapter.
 
 mod child;
+mod difference;
 mod judge;
 mod peer;
 mod session;

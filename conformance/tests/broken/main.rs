@@ -1,15 +1,17 @@
 //! Adapters broken on purpose. The first argument says how.
 
+mod lines;
+
 use dsr_conformance::adapter::{Adapter, Core};
 use dsr_conformance::protocol::{
-    CaseBegin, Decline, Deliver, Done, ErrorCode, Feature, Hello, HelloReply, MadeDelta, Mutate, Mutation,
-    Read, Reply, Restart, Shown,
+    AnswerFor, CaseBegin, Decline, Deliver, ErrorCode, Feature, Hello, HelloReply, MadeDelta, Mutate,
+    Mutation, Read, Restart, Shown,
 };
 use dsr_conformance::serve::serve;
+use lines::{Mangling, chatter, endless, hang};
 use std::collections::BTreeSet;
-use std::io::{self, BufRead, Read as _, Write};
+use std::io;
 use std::process::ExitCode;
-use std::time::Duration;
 
 fn main() -> ExitCode {
     let how = std::env::args().nth(1).unwrap_or_default();
@@ -25,6 +27,7 @@ fn main() -> ExitCode {
             serve(&mut Counting { core, seen: BTreeSet::new(), twice: BTreeSet::new() }, input, output)
         }
         "forgets-removals" => serve(&mut Forgetful { core, removals: BTreeSet::new() }, input, output),
+        "empty-answers" => serve(&mut Mean(core), input, output),
         "liar" => serve(&mut Liar(core), input, output),
         "errs" => serve(&mut Errs(core), input, output),
         "modest" => serve(&mut Modest(core), input, output),
@@ -36,87 +39,6 @@ fn main() -> ExitCode {
             eprintln!("{error}");
             ExitCode::FAILURE
         }
-    }
-}
-
-fn hang() -> ExitCode {
-    std::thread::sleep(Duration::from_secs(600));
-    ExitCode::SUCCESS
-}
-
-/// Floods standard error, and serves all the same.
-fn chatter(input: impl BufRead) -> ExitCode {
-    for _ in 0..20_000 {
-        eprintln!("error: panic: {{\"id\": 1, \"error\": 1}} \u{1b}[31m");
-    }
-    let _ = io::stderr().write_all(&[0xff, 0xfe]);
-    let served = serve(&mut Core::default(), input, io::stdout());
-    if served.is_ok() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
-}
-
-/// A line without an end.
-fn endless(mut output: impl Write) -> ExitCode {
-    while output.write_all(&[b' '; 4096]).is_ok() {}
-    ExitCode::FAILURE
-}
-
-/// Writes something else than the core's replies, from the middle of the victim on.
-struct Mangling<W> {
-    how: String,
-    output: W,
-    doomed: bool,
-    request: u64,
-}
-
-impl<W: Write> Write for Mangling<W> {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        // `serve` writes each reply at once, then its end.
-        if bytes == b"\n" {
-            return if self.doomed { Ok(1) } else { self.output.write(bytes) };
-        }
-        self.request += 1;
-        // The second argument says in which reply, counted from 1.
-        self.doomed = std::env::args().nth(2).and_then(|at| at.parse().ok()) == Some(self.request);
-        if !self.doomed {
-            self.output.write_all(bytes)?;
-            return Ok(bytes.len());
-        }
-        match self.how.as_str() {
-            "garbage" => self.output.write_all(b"Traceback (most recent call last):\n")?,
-            "hangs" => drop(hang()),
-            "dies" => std::process::exit(101),
-            "wrong-id" => {
-                let reply = Reply::new(self.request - 1, Ok(Done {}));
-                writeln!(self.output, "{}", serde_json::to_string(&reply)?)?;
-            }
-            "cut-off" => {
-                self.output.write_all(b"{\"id\": 3, \"ok\": {\"\xc3\n")?;
-            }
-            "half-line" => {
-                self.output.write_all(b"{\"id\": 3, ")?;
-                self.output.flush()?;
-                std::process::exit(0);
-            }
-            "deep" => writeln!(self.output, "{{\"id\": 3, \"ok\": {}", "[".repeat(100_000))?,
-            "twice" => {
-                self.output.write_all(bytes)?;
-                self.output.write_all(b"\n")?;
-                self.output.write_all(bytes)?;
-                self.output.write_all(b"\n")?;
-            }
-            "list" => writeln!(self.output, "{{\"id\": 3, \"ok\": [\"d1\"]}}")?,
-            "neither" => writeln!(self.output, "{{\"id\": {}}}", self.request)?,
-            "too-long" => {
-                io::copy(&mut io::repeat(b'x').take(2 << 20), &mut self.output)?;
-                self.output.write_all(b"\n")?;
-            }
-            other => return Err(io::Error::other(format!("{other:?} is no way to be broken"))),
-        }
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.output.flush()
     }
 }
 
@@ -146,7 +68,7 @@ impl Adapter for Counting {
         hello(Hello) -> HelloReply;
         mutate(Mutate) -> MadeDelta;
         restart(Restart) -> ();
-        resynchronise(dsr_conformance::protocol::AnswerFor) -> MadeDelta;
+        resynchronise(AnswerFor) -> MadeDelta;
     }
 
     fn begin(&mut self, case: &CaseBegin) -> Result<(), Decline> {
@@ -188,7 +110,7 @@ impl Adapter for Forgetful {
         hello(Hello) -> HelloReply;
         read(Read) -> Shown;
         restart(Restart) -> ();
-        resynchronise(dsr_conformance::protocol::AnswerFor) -> MadeDelta;
+        resynchronise(AnswerFor) -> MadeDelta;
     }
 
     fn begin(&mut self, case: &CaseBegin) -> Result<(), Decline> {
@@ -209,6 +131,30 @@ impl Adapter for Forgetful {
     }
 }
 
+/// Answers everybody with nothing.
+struct Mean(Core);
+
+impl Mean {
+    fn core(&mut self) -> &mut Core {
+        &mut self.0
+    }
+}
+
+impl Adapter for Mean {
+    as_the_core! {
+        hello(Hello) -> HelloReply;
+        begin(CaseBegin) -> ();
+        mutate(Mutate) -> MadeDelta;
+        deliver(Deliver) -> ();
+        read(Read) -> Shown;
+        restart(Restart) -> ();
+    }
+
+    fn resynchronise(&mut self, answer: &AnswerFor) -> Result<MadeDelta, Decline> {
+        self.0.mutate(&Mutate { replica: answer.from.clone(), mutations: Vec::new() })
+    }
+}
+
 /// Announces `restart` and does not have it.
 struct Liar(Core);
 
@@ -225,7 +171,7 @@ impl Adapter for Liar {
         mutate(Mutate) -> MadeDelta;
         deliver(Deliver) -> ();
         read(Read) -> Shown;
-        resynchronise(dsr_conformance::protocol::AnswerFor) -> MadeDelta;
+        resynchronise(AnswerFor) -> MadeDelta;
     }
 }
 
@@ -278,7 +224,7 @@ impl Adapter for Errs {
         mutate(Mutate) -> MadeDelta;
         deliver(Deliver) -> ();
         restart(Restart) -> ();
-        resynchronise(dsr_conformance::protocol::AnswerFor) -> MadeDelta;
+        resynchronise(AnswerFor) -> MadeDelta;
     }
 
     fn read(&mut self, _: &Read) -> Result<Shown, Decline> {
