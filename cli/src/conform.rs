@@ -174,7 +174,7 @@ fn text(report: &Report, whom: &str) -> String {
             format_args!("{} {} [{}]\n", result.verdict.name(), result.id, result.spec.join(", ")),
         );
         for line in result.detail.lines() {
-            add(&mut text, format_args!("    {}\n", line.escape_debug().to_string().replace("\\\"", "\"")));
+            add(&mut text, format_args!("    {}\n", safe(line)));
         }
     }
     let named = report.implementation.as_ref().map_or_else(
@@ -188,6 +188,15 @@ fn text(report: &Report, whom: &str) -> String {
     let counts: Vec<String> = counts.map(|(name, count)| format!("{count} {name}")).collect();
     add(&mut text, format_args!("{}\n", counts.join(", ")));
     text
+}
+
+/// A line from an adapter, without what could upset a terminal.
+fn safe(line: &str) -> String {
+    let keeps = |character| matches!(character, '"' | '\'' | '\\');
+    let pieces = line.chars().map(|character| {
+        if keeps(character) { character.to_string() } else { character.escape_debug().to_string() }
+    });
+    pieces.collect()
 }
 
 fn list(cases: &[Case]) -> Status {

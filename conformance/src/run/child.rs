@@ -187,9 +187,9 @@ fn keep_last(mut stderr: impl Read, words: &Mutex<VecDeque<u8>>) {
     }
 }
 
-/// The beginning of a line, fit to be shown.
+/// The beginning of a line, as it is: who shows it escapes it.
 pub(super) fn excerpt(line: &str) -> String {
     const CHARACTERS_MAX: usize = 80;
     let start: String = line.chars().take(CHARACTERS_MAX).collect();
-    if start.len() < line.len() { format!("{start:?}…") } else { format!("{start:?}") }
+    if start.len() < line.len() { format!("`{start}…`") } else { format!("`{start}`") }
 }

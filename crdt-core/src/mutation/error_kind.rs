@@ -95,3 +95,30 @@ fn of_exhausted(error: &ExhaustedError) -> String {
     };
     format!("Exhausted.{name}")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dot::{ReplicaId, VertexId};
+
+    #[track_caller]
+    fn check(error: impl Into<MutationError>, kind: &str) {
+        assert_eq!(error.into().kind(), kind);
+    }
+
+    #[test]
+    fn law_an_error_that_reports_another_names_both() {
+        let unknown = || NewEdgeError::UnknownVertex { vertex: VertexId::ROOT };
+        let long = || AttributeError::NameLength { bytes: 300 };
+        let exhausted = || ExhaustedError::Sequences { replica: ReplicaId::SCENE };
+        check(AddVertexError::Link(unknown()), "Link.UnknownVertex");
+        check(AddEdgeError::Edge(unknown()), "UnknownVertex");
+        check(MoveEdgeError::Edge(NewEdgeError::IntoRoot), "Edge.IntoRoot");
+        check(AddVertexError::Attribute(long()), "Attribute.NameLength");
+        check(UpdateAttributesError::Attribute(long()), "NameLength");
+        check(UpdateAttributesError::Exhausted(exhausted()), "Exhausted.Sequences");
+        check(AddEdgeError::Exhausted(ExhaustedError::Stamps), "Exhausted.Stamps");
+        check(RemoveVertexError::Root, "Root");
+        check(RemoveEdgeError::Strands(super::super::StrandError { vertices: alloc::vec![] }), "Strands");
+    }
+}
