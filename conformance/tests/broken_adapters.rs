@@ -147,6 +147,25 @@ fn law_what_is_left_out_is_no_pass() {
     assert_eq!(left_out.outcome(), Outcome::Incomplete);
 }
 
+/// `[spec: CONF-3]`
+#[test]
+fn law_who_takes_less_is_asked_less() {
+    let unsupported = |how: &str, patterns: &[&str]| {
+        let report = run(&mut program(&[how]), &cases(patterns));
+        assert_eq!(report.count(Verdict::Pass) + report.count(Verdict::Unsupported), report.results.len());
+        let left_out = report.results.into_iter().filter(|result| result.verdict == Verdict::Unsupported);
+        left_out.map(|result| (result.id, result.detail)).collect::<Vec<_>>()
+    };
+    let few = unsupported("few-replicas", &["universal/convergence/*"]);
+    let needs = "needs 3 replicas; the adapter takes 2";
+    let expected = ["one-attribute", "cycle"].map(|slug| format!("universal/convergence/{slug}"));
+    assert_eq!(few, expected.map(|id| (id, needs.to_owned())));
+    let short =
+        unsupported("short-lines", &["universal/mutations/all-values", "universal/convergence/names"]);
+    let what = "has a line of more than 300 bytes";
+    assert_eq!(short, [("universal/mutations/all-values".to_owned(), what.to_owned())]);
+}
+
 /// `[spec: CONF-8]` `[spec: CONF-9]` `[spec: CONF-10]`
 #[test]
 fn canary_an_error_is_an_error_and_counts_by_its_level() {

@@ -4,7 +4,7 @@ mod lines;
 
 use dsr_conformance::adapter::{Adapter, Core};
 use dsr_conformance::protocol::{
-    AnswerFor, CaseBegin, Decline, Deliver, ErrorCode, Feature, Hello, HelloReply, MadeDelta, Mutate,
+    AnswerFor, CaseBegin, Decline, Deliver, ErrorCode, Feature, Hello, HelloReply, Limits, MadeDelta, Mutate,
     Mutation, Read, Restart, Shown,
 };
 use dsr_conformance::serve::serve;
@@ -28,6 +28,8 @@ fn main() -> ExitCode {
         }
         "forgets-removals" => serve(&mut Forgetful { core, removals: BTreeSet::new() }, input, output),
         "empty-answers" => serve(&mut Mean(core), input, output),
+        "few-replicas" => serve(&mut Small(core, Limits { line_bytes: 1 << 20, replicas: 2 }), input, output),
+        "short-lines" => serve(&mut Small(core, Limits { line_bytes: 300, replicas: 9 }), input, output),
         "liar" => serve(&mut Liar(core), input, output),
         "errs" => serve(&mut Errs(core), input, output),
         "modest" => serve(&mut Modest(core), input, output),
@@ -152,6 +154,31 @@ impl Adapter for Mean {
 
     fn resynchronise(&mut self, answer: &AnswerFor) -> Result<MadeDelta, Decline> {
         self.0.mutate(&Mutate { replica: answer.from.clone(), mutations: Vec::new() })
+    }
+}
+
+/// Takes little, and says so.
+struct Small(Core, Limits);
+
+impl Small {
+    fn core(&mut self) -> &mut Core {
+        &mut self.0
+    }
+}
+
+impl Adapter for Small {
+    as_the_core! {
+        begin(CaseBegin) -> ();
+        mutate(Mutate) -> MadeDelta;
+        deliver(Deliver) -> ();
+        read(Read) -> Shown;
+        restart(Restart) -> ();
+        resynchronise(AnswerFor) -> MadeDelta;
+    }
+
+    fn hello(&mut self, hello: &Hello) -> Result<HelloReply, Decline> {
+        let reply = self.0.hello(hello)?;
+        Ok(HelloReply { limits: self.1, ..reply })
     }
 }
 
