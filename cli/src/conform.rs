@@ -173,7 +173,10 @@ fn text(report: &Report, whom: &str) -> String {
             &mut text,
             format_args!("{} {} [{}]\n", result.verdict.name(), result.id, result.spec.join(", ")),
         );
-        for line in result.detail.lines() {
+        if result.failure.step > 0 {
+            add(&mut text, format_args!("    step {}\n", result.failure.step));
+        }
+        for line in result.failure.what.lines() {
             add(&mut text, format_args!("    {}\n", safe(line)));
         }
     }

@@ -68,8 +68,6 @@ fn law_the_adapter_answers_line_by_line_and_ends_with_its_input() {
         replies[4],
         r#"{"id":5,"ok":{"view":{"vertices":{},"edges":[],"root":{"attributes":{}},"repairs":[]}}}"#
     );
-    let bye = dsr_with(&["conform", "adapter"], b"{\"id\":1,\"do\":{\"bye\":{}}}\nnever read");
-    assert_eq!((bye.status, bye.out.as_str()), (0, "{\"id\":1,\"ok\":{}}\n"));
     let garbage = dsr_with(&["conform", "adapter"], b"hello\n");
     assert_eq!((garbage.status, garbage.out.as_str()), (3, ""));
     assert!(garbage.err.contains("line 1 is no request"), "{garbage:?}");

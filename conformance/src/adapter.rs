@@ -1,53 +1,107 @@
 //! What answers requests.
 
 use crate::protocol::{
-    Answer, AnswerFor, CaseBegin, Command, Decline, Deliver, Hello, HelloReply, MadeDelta, Mutate, Read,
-    Restart, Shown,
+    Answer, AnswerDigest, AnswerFor, BytesShown, CaseBegin, Command, Decline, Decode, Deliver, DeltaName,
+    DigestShown, Done, ErrorCode, Found, Group, Hello, HelloReply, Load, Lookup, MadeDelta, Mutate, Read,
+    Restart, Shown, StateShown,
 };
 
 pub use crate::core_adapter::Core;
 
 /// An implementation that can be asked. `[spec: CONF-4]`
 ///
-/// The first five methods suffice for the profile `observe`; the other two are features.
+/// The first five methods suffice for the profile `observe`; each other is a feature, or part of a profile, and
+/// declines unless it is overridden.
 pub trait Adapter {
     /// The handshake.
     fn hello(&mut self, hello: &Hello) -> Result<HelloReply, Decline>;
     /// Begins a case with empty replicas; what there was of another one is forgotten.
     fn begin(&mut self, case: &CaseBegin) -> Result<(), Decline>;
-    /// Makes mutations as one group, all or none; returns the delta's handle.
+    /// Makes mutations as one group, all or none; returns the delta's name.
     fn mutate(&mut self, mutate: &Mutate) -> Result<MadeDelta, Decline>;
     /// Joins a delta.
     fn deliver(&mut self, deliver: &Deliver) -> Result<(), Decline>;
     /// What a replica shows.
     fn read(&mut self, read: &Read) -> Result<Shown, Decline>;
+    /// Makes several deltas one.
+    fn group(&mut self, _group: &Group) -> Result<MadeDelta, Decline> {
+        Err(without("group"))
+    }
+    /// Which vertex a name finds.
+    fn lookup(&mut self, _lookup: &Lookup) -> Result<Found, Decline> {
+        Err(without("lookup"))
+    }
     /// Stops a replica and starts it anew.
     fn restart(&mut self, _restart: &Restart) -> Result<(), Decline> {
-        Err(Decline::error(crate::protocol::ErrorCode::Unsupported, "no command `restart`"))
+        Err(without("restart"))
     }
     /// Makes the delta that one replica lacks of another.
     fn resynchronise(&mut self, _answer: &AnswerFor) -> Result<MadeDelta, Decline> {
-        Err(Decline::error(crate::protocol::ErrorCode::Unsupported, "no command `answer`"))
+        Err(without("answer"))
     }
-    /// Ends a case.
-    fn end(&mut self) {}
+    /// A replica's state.
+    fn state(&mut self, _read: &Read) -> Result<StateShown, Decline> {
+        Err(without("state"))
+    }
+    /// A delta, as the state that it is.
+    fn delta(&mut self, _delta: &DeltaName) -> Result<StateShown, Decline> {
+        Err(without("delta"))
+    }
+    /// A replica's digest.
+    fn digest(&mut self, _read: &Read) -> Result<DigestShown, Decline> {
+        Err(without("digest"))
+    }
+    /// Takes a delta from outside.
+    fn load(&mut self, _load: &Load) -> Result<MadeDelta, Decline> {
+        Err(without("load"))
+    }
+    /// A delta's bytes.
+    fn encode(&mut self, _delta: &DeltaName) -> Result<BytesShown, Decline> {
+        Err(without("encode"))
+    }
+    /// The bytes of a replica's digest.
+    fn encode_digest(&mut self, _read: &Read) -> Result<BytesShown, Decline> {
+        Err(without("encode_digest"))
+    }
+    /// A replica's fingerprint.
+    fn fingerprint(&mut self, _read: &Read) -> Result<BytesShown, Decline> {
+        Err(without("fingerprint"))
+    }
+    /// Takes the bytes of a delta from outside.
+    fn decode(&mut self, _decode: &Decode) -> Result<MadeDelta, Decline> {
+        Err(without("decode"))
+    }
+    /// Makes the delta for a digest from outside.
+    fn answer_digest(&mut self, _answer: &AnswerDigest) -> Result<MadeDelta, Decline> {
+        Err(without("answer_digest"))
+    }
 }
 
-/// The answer to any command. `bye` is the caller's to act on.
+fn without(command: &str) -> Decline {
+    Decline::error(ErrorCode::Unsupported, format!("no command `{command}`"))
+}
+
+/// The answer to any command.
 pub fn answer(adapter: &mut dyn Adapter, command: &Command) -> Result<Answer, Decline> {
-    let done = Answer::Done(crate::protocol::Done {});
+    let done = Answer::Done(Done {});
     Ok(match command {
         Command::Hello(hello) => Answer::Hello(adapter.hello(hello)?),
         Command::CaseBegin(case) => adapter.begin(case).map(|()| done)?,
         Command::Mutate(mutate) => Answer::Delta(adapter.mutate(mutate)?),
         Command::Deliver(deliver) => adapter.deliver(deliver).map(|()| done)?,
         Command::Read(read) => Answer::View(adapter.read(read)?),
+        Command::Group(group) => Answer::Delta(adapter.group(group)?),
+        Command::Lookup(lookup) => Answer::Vertex(adapter.lookup(lookup)?),
         Command::Restart(restart) => adapter.restart(restart).map(|()| done)?,
         Command::Answer(answer) => Answer::Delta(adapter.resynchronise(answer)?),
-        Command::CaseEnd(_) => {
-            adapter.end();
-            done
-        }
-        Command::Bye(_) => done,
+        Command::State(read) => Answer::State(adapter.state(read)?),
+        Command::Delta(delta) => Answer::State(adapter.delta(delta)?),
+        Command::Digest(read) => Answer::Digest(adapter.digest(read)?),
+        Command::Load(load) => Answer::Delta(adapter.load(load)?),
+        Command::Encode(delta) => Answer::Bytes(adapter.encode(delta)?),
+        Command::EncodeDigest(read) => Answer::Bytes(adapter.encode_digest(read)?),
+        Command::Fingerprint(read) => Answer::Bytes(adapter.fingerprint(read)?),
+        Command::Decode(decode) => Answer::Delta(adapter.decode(decode)?),
+        Command::AnswerDigest(answer) => Answer::Delta(adapter.answer_digest(answer)?),
     })
 }

@@ -5,21 +5,23 @@ mod read;
 
 pub use read::{CaseError, read};
 
-use crate::protocol::{Feature, Mutation, ReplicaName, View};
+use crate::protocol::{Feature, Hex, Mutation, Profile, ReplicaName, View};
 use dsr_core::Dictionary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 /// The format of case files.
 pub const FORMAT: u32 = 1;
 
 /// A file of cases on one topic.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CaseFile {
     /// 1.
     pub format: u32,
-    /// `universal`: whatever conflicts are decided by; `resolution`: by this specification's rules.
+    /// `universal`: whatever conflicts are decided by; `resolution`: by this specification's rules; `causal`, `wire`:
+    /// what is seen in these profiles.
     pub family: String,
     /// What the cases are about.
     pub topic: String,
@@ -28,7 +30,7 @@ pub struct CaseFile {
 }
 
 /// One case.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
     /// `family/topic/slug`; never changed, never used again.
@@ -41,6 +43,9 @@ pub struct Case {
     pub spec: Vec<String>,
     /// How binding it is.
     pub level: Level,
+    /// How deep it looks.
+    #[serde(default, skip_serializing_if = "Profile::is_default")]
+    pub profile: Profile,
     /// What the adapter must be able to do.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub requires: Vec<Feature>,
@@ -54,6 +59,12 @@ pub struct Case {
     pub steps: Vec<Step>,
     /// Where the case is from.
     pub provenance: Provenance,
+    /// What it settles that could have been settled otherwise: one of the choices that the corpus explains.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub choice: Option<String>,
+    /// The version of the corpus that brought it; left out, 1.0.0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub since: Option<String>,
 }
 
 /// How binding a case is.
@@ -85,7 +96,7 @@ pub enum Origin {
 }
 
 /// One step.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Step {
     /// A replica mutates; this must succeed.
@@ -121,6 +132,36 @@ pub enum Step {
         /// The case's name for the delta.
         r#as: String,
     },
+    /// Deltas become one message.
+    Group {
+        /// The case's names for them.
+        deltas: Vec<String>,
+        /// The case's name for what they become.
+        r#as: String,
+    },
+    /// A delta comes from outside, as JSON.
+    Load {
+        /// What it is: JSON-12.
+        state: Value,
+        /// The case's name for it.
+        r#as: String,
+    },
+    /// A delta comes from outside, as bytes.
+    Decode {
+        /// What it is.
+        bytes: Hex,
+        /// The case's name for it.
+        r#as: String,
+    },
+    /// A digest comes from outside, as bytes, and a replica makes the delta that its sender lacks.
+    AnswerDigest {
+        /// Who.
+        from: ReplicaName,
+        /// The digest.
+        bytes: Hex,
+        /// The case's name for the delta.
+        r#as: String,
+    },
     /// A replica shows this.
     Expect {
         /// Who.
@@ -142,6 +183,107 @@ pub enum Step {
         /// The error's name; compared only where the adapter has the feature `error-kinds`.
         kind: String,
     },
+    /// A name finds this vertex.
+    ExpectVertex {
+        /// Who looks.
+        replica: ReplicaName,
+        /// The name.
+        name: String,
+        /// The vertex's handle; null if there is none.
+        #[serde(deserialize_with = "Option::deserialize")]
+        #[schemars(required)]
+        vertex: Option<String>,
+    },
+    /// A replica has this state.
+    ExpectState {
+        /// Who.
+        replica: ReplicaName,
+        /// What: JSON-12.
+        state: Value,
+    },
+    /// A delta is this.
+    ExpectDelta {
+        /// The case's name for it.
+        delta: String,
+        /// What: JSON-12.
+        state: Value,
+    },
+    /// A replica has this digest.
+    ExpectDigest {
+        /// Who.
+        replica: ReplicaName,
+        /// What: JSON-13.
+        digest: Value,
+    },
+    /// Something has these bytes.
+    ExpectBytes {
+        /// What.
+        of: Encoded,
+        /// The bytes.
+        bytes: Hex,
+    },
+    /// What has the form of a state in JSON is refused.
+    ExpectUnloadable {
+        /// What comes.
+        state: Value,
+        /// The fault's name, if it has one; compared only where the adapter has the feature `error-kinds`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        kind: Option<String>,
+    },
+    /// Bytes are refused where a state or delta is due.
+    ExpectUndecodable {
+        /// What comes.
+        bytes: Hex,
+        /// The fault's name, if it has one; compared only where the adapter has the feature `error-kinds`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        kind: Option<String>,
+    },
+    /// Bytes are refused where a digest is due.
+    ExpectUnanswerable {
+        /// Who is asked.
+        from: ReplicaName,
+        /// What comes.
+        bytes: Hex,
+    },
+}
+
+/// What has bytes.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Encoded {
+    /// A delta, by the case's name for it.
+    Delta(String),
+    /// A replica's digest.
+    Digest(ReplicaName),
+    /// A replica's fingerprint.
+    Fingerprint(ReplicaName),
+}
+
+impl Step {
+    /// Whether it says what must be.
+    pub const fn expects(&self) -> bool {
+        match self {
+            Self::Mutate { .. }
+            | Self::Deliver { .. }
+            | Self::Restart { .. }
+            | Self::Answer { .. }
+            | Self::Group { .. }
+            | Self::Load { .. }
+            | Self::Decode { .. }
+            | Self::AnswerDigest { .. } => false,
+            Self::Expect { .. }
+            | Self::ExpectEqual { .. }
+            | Self::ExpectRefused { .. }
+            | Self::ExpectVertex { .. }
+            | Self::ExpectState { .. }
+            | Self::ExpectDelta { .. }
+            | Self::ExpectDigest { .. }
+            | Self::ExpectBytes { .. }
+            | Self::ExpectUnloadable { .. }
+            | Self::ExpectUndecodable { .. }
+            | Self::ExpectUnanswerable { .. } => true,
+        }
+    }
 }
 
 impl CaseFile {

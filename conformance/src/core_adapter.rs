@@ -1,21 +1,26 @@
 //! The core as an adapter.
 
 mod handles;
+mod outside;
 mod shown;
 
 use crate::adapter::Adapter;
 use crate::protocol::{
-    AnswerFor, CaseBegin, Decline, Deliver, ErrorCode, ErrorReply, Feature, Hello, HelloReply,
-    Implementation, LINE_BYTES_MAX, Limits, MadeDelta, Mutate, OBSERVE, PROTOCOL, Read, ReplicaName, Restart,
-    Shown,
+    AnswerDigest, AnswerFor, BytesShown, CaseBegin, Decline, Decode, Deliver, DeltaName, DigestShown,
+    ErrorCode, ErrorReply, Feature, Found, Group, Hello, HelloReply, Hex, Implementation, LINE_BYTES_MAX,
+    Limits, Load, Lookup, MadeDelta, Mutate, PROTOCOL, Profile, Read, ReplicaName, Restart, Shown,
+    StateShown,
 };
-use dsr_core::{Author, Delta, Dictionary, ReplicaId, State, delta_for, digest, view};
+use dsr_core::{
+    Author, DecodeError, Delta, Dictionary, ReplicaId, State, decode, decode_digest, delta_for, digest,
+    encode, encode_digest, fingerprint, view,
+};
 use handles::Handles;
 use std::collections::BTreeMap;
 
 const REPLICAS_MAX: usize = 64;
 
-/// The reference core, `dsr-core`, as an adapter with every feature. `[spec: CONF-4]`
+/// The reference core, `dsr-core`, as an adapter with every feature and profile. `[spec: CONF-4]`
 #[derive(Debug, Default)]
 pub struct Core {
     dictionary: Dictionary,
@@ -34,10 +39,29 @@ fn refused(message: String, kind: Option<String>) -> Decline {
     Decline::Error(ErrorReply { code: ErrorCode::Refused, message, kind })
 }
 
+fn no_replica(name: &str) -> Decline {
+    Decline::error(ErrorCode::Unknown, format!("no replica {name:?} in this case"))
+}
+
+fn no_json(error: &serde_json::Error) -> Decline {
+    Decline::error(ErrorCode::Internal, error.to_string())
+}
+
+fn undecodable(error: &DecodeError) -> Decline {
+    let kind = match error {
+        DecodeError::Malformed(malformed) => Some(malformed.kind().into()),
+        _ => None,
+    };
+    refused(error.to_string(), kind)
+}
+
 impl Core {
     fn replica(&mut self, name: &str) -> Result<&mut Replica, Decline> {
-        let unknown = || Decline::error(ErrorCode::Unknown, format!("no replica {name:?} in this case"));
-        self.replicas.get_mut(name).ok_or_else(unknown)
+        self.replicas.get_mut(name).ok_or_else(|| no_replica(name))
+    }
+
+    fn state_of(&self, name: &str) -> Result<&State, Decline> {
+        self.replicas.get(name).map(|replica| &replica.state).ok_or_else(|| no_replica(name))
     }
 
     fn keep(&mut self, delta: Delta) -> MadeDelta {
@@ -45,11 +69,16 @@ impl Core {
         MadeDelta { delta: format!("d{}", self.deltas.len()) }
     }
 
-    fn delta(&self, handle: &str) -> Result<&Delta, Decline> {
-        let number = handle.strip_prefix('d').and_then(|number| number.parse::<usize>().ok());
-        let found = number.and_then(|number| self.deltas.get(number.checked_sub(1)?));
-        found.ok_or_else(|| Decline::error(ErrorCode::Unknown, format!("no delta {handle:?} in this case")))
+    fn kept(&self, name: &str) -> Result<&Delta, Decline> {
+        kept(&self.deltas, name)
     }
+}
+
+/// The delta that [`Core::keep`] has named so.
+fn kept<'d>(deltas: &'d [Delta], name: &str) -> Result<&'d Delta, Decline> {
+    let number = name.strip_prefix('d').and_then(|number| number.parse::<usize>().ok());
+    let found = number.and_then(|number| deltas.get(number.checked_sub(1)?));
+    found.ok_or_else(|| Decline::error(ErrorCode::Unknown, format!("no delta {name:?} in this case")))
 }
 
 impl Adapter for Core {
@@ -67,7 +96,7 @@ impl Adapter for Core {
                 language: "Rust".into(),
                 source: "crdt-core".into(),
             },
-            profiles: vec![OBSERVE.into()],
+            profiles: Profile::ALL.iter().map(|profile| profile.name().into()).collect(),
             features: Feature::ALL.iter().map(|feature| feature.name().into()).collect(),
             limits: Limits { line_bytes: LINE_BYTES_MAX, replicas: REPLICAS_MAX },
         })
@@ -107,14 +136,28 @@ impl Adapter for Core {
     }
 
     fn deliver(&mut self, deliver: &Deliver) -> Result<(), Decline> {
-        let delta = self.delta(&deliver.delta)?.clone();
-        self.replica(&deliver.replica)?.state.join(&delta);
+        let delta = kept(&self.deltas, &deliver.delta)?;
+        let replica = self.replicas.get_mut(&deliver.replica);
+        replica.ok_or_else(|| no_replica(&deliver.replica))?.state.join(delta);
         Ok(())
     }
 
     fn read(&mut self, read: &Read) -> Result<Shown, Decline> {
-        let state = self.replica(&read.replica)?.state.clone();
-        Ok(Shown { view: shown::shown(&view(&state, &self.dictionary), &self.handles) })
+        let view = view(self.state_of(&read.replica)?, &self.dictionary);
+        Ok(Shown { view: shown::shown(&view, &self.handles) })
+    }
+
+    fn group(&mut self, group: &Group) -> Result<MadeDelta, Decline> {
+        let mut whole = Delta::new();
+        for delta in &group.deltas {
+            whole.join(self.kept(delta)?);
+        }
+        Ok(self.keep(whole))
+    }
+
+    fn lookup(&mut self, lookup: &Lookup) -> Result<Found, Decline> {
+        let view = view(self.state_of(&lookup.replica)?, &self.dictionary);
+        Ok(Found { vertex: view.vertex_by_name(&lookup.name).map(|id| self.handles.name(id)) })
     }
 
     fn restart(&mut self, restart: &Restart) -> Result<(), Decline> {
@@ -128,12 +171,52 @@ impl Adapter for Core {
     }
 
     fn resynchronise(&mut self, answer: &AnswerFor) -> Result<MadeDelta, Decline> {
-        let theirs = digest(&self.replica(&answer.to)?.state);
-        let delta = delta_for(&self.replica(&answer.from)?.state, &theirs);
+        let theirs = digest(self.state_of(&answer.to)?);
+        let delta = delta_for(self.state_of(&answer.from)?, &theirs);
         Ok(self.keep(delta))
     }
 
-    fn end(&mut self) {
-        *self = Self::default();
+    fn state(&mut self, read: &Read) -> Result<StateShown, Decline> {
+        let state = serde_json::to_value(self.state_of(&read.replica)?);
+        Ok(StateShown { state: state.map_err(|error| no_json(&error))? })
+    }
+
+    fn delta(&mut self, delta: &DeltaName) -> Result<StateShown, Decline> {
+        let state = serde_json::to_value(self.kept(&delta.delta)?);
+        Ok(StateShown { state: state.map_err(|error| no_json(&error))? })
+    }
+
+    fn digest(&mut self, read: &Read) -> Result<DigestShown, Decline> {
+        let digest = serde_json::to_value(digest(self.state_of(&read.replica)?));
+        Ok(DigestShown { digest: digest.map_err(|error| no_json(&error))? })
+    }
+
+    fn load(&mut self, load: &Load) -> Result<MadeDelta, Decline> {
+        let delta = outside::state(&load.state).map_err(|(why, kind)| refused(why, kind))?;
+        Ok(self.keep(delta))
+    }
+
+    fn encode(&mut self, delta: &DeltaName) -> Result<BytesShown, Decline> {
+        Ok(BytesShown { bytes: Hex(encode(self.kept(&delta.delta)?)) })
+    }
+
+    fn encode_digest(&mut self, read: &Read) -> Result<BytesShown, Decline> {
+        Ok(BytesShown { bytes: Hex(encode_digest(&digest(self.state_of(&read.replica)?))) })
+    }
+
+    fn fingerprint(&mut self, read: &Read) -> Result<BytesShown, Decline> {
+        let fingerprint = fingerprint(self.state_of(&read.replica)?);
+        Ok(BytesShown { bytes: Hex(fingerprint.0.to_be_bytes().to_vec()) })
+    }
+
+    fn decode(&mut self, given: &Decode) -> Result<MadeDelta, Decline> {
+        let delta = decode(&given.bytes.0).map_err(|error| undecodable(&error))?;
+        Ok(self.keep(delta))
+    }
+
+    fn answer_digest(&mut self, answer: &AnswerDigest) -> Result<MadeDelta, Decline> {
+        let theirs = decode_digest(&answer.bytes.0).map_err(|error| undecodable(&error))?;
+        let delta = delta_for(self.state_of(&answer.from)?, &theirs);
+        Ok(self.keep(delta))
     }
 }

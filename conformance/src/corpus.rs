@@ -15,6 +15,7 @@ macro_rules! files {
 }
 
 files! {
+    "causal/states.json",
     "resolution/attributes.json",
     "resolution/edges.json",
     "resolution/names.json",
@@ -24,6 +25,7 @@ files! {
     "universal/mutations.json",
     "universal/recovery.json",
     "universal/refusals.json",
+    "wire/bytes.json",
 }
 
 /// Every case, in the order of files and within them.

@@ -3,6 +3,7 @@
 use crate::case::{Case, Level};
 use crate::corpus;
 use crate::protocol::{Implementation, PROTOCOL};
+use crate::run::Failure;
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -74,12 +75,12 @@ pub struct CaseResult {
     /// What came of it.
     pub verdict: Verdict,
     /// Why, unless it passed.
-    pub detail: String,
+    pub failure: Failure,
 }
 
 impl CaseResult {
-    pub(crate) fn of(case: &Case, verdict: Verdict, detail: String) -> Self {
-        Self { id: case.id.clone(), level: case.level, spec: case.spec.clone(), verdict, detail }
+    pub(crate) fn of(case: &Case, verdict: Verdict, failure: Failure) -> Self {
+        Self { id: case.id.clone(), level: case.level, spec: case.spec.clone(), verdict, failure }
     }
 }
 

@@ -1,7 +1,7 @@
 //! An adapter over lines.
 
 use crate::adapter::{Adapter, answer};
-use crate::protocol::{Answer, Command, Decline, ErrorCode, LINE_BYTES_MAX, Reply, Request, read_strictly};
+use crate::protocol::{Answer, Decline, ErrorCode, LINE_BYTES_MAX, Reply, Request, read_strictly};
 use serde::Deserialize;
 use std::io::{self, BufRead, Read, Write};
 
@@ -35,7 +35,7 @@ pub enum ServeError {
     },
 }
 
-/// Replies to each line of `input` by one line of `output`, flushed, until `bye` or the end. `[spec: CONF-1]`
+/// Replies to each line of `input` by one line of `output`, flushed, until its end. `[spec: CONF-1]`
 /// `[spec: CONF-2]`
 pub fn serve(
     adapter: &mut dyn Adapter,
@@ -51,21 +51,17 @@ pub fn serve(
         if line.last() != Some(&b'\n') && line.len() > LINE_BYTES_MAX {
             return Err(ServeError::TooLong { number });
         }
-        let (reply, goes_on) =
-            reply_to(adapter, &line).map_err(|why| ServeError::NoRequest { number, why })?;
+        let reply = reply_to(adapter, &line).map_err(|why| ServeError::NoRequest { number, why })?;
         let text = serde_json::to_string(&reply).map_err(|why| ServeError::NoReply { number, why })?;
         output.write_all(text.as_bytes())?;
         output.write_all(b"\n")?;
         output.flush()?;
-        if !goes_on {
-            break;
-        }
     }
     Ok(())
 }
 
-/// The reply to one line, and whether another may follow; an error if the line has no id to reply to.
-fn reply_to(adapter: &mut dyn Adapter, line: &[u8]) -> Result<(Reply<Answer>, bool), serde_json::Error> {
+/// The reply to one line; an error if the line has no id to reply to.
+fn reply_to(adapter: &mut dyn Adapter, line: &[u8]) -> Result<Reply<Answer>, serde_json::Error> {
     #[derive(Deserialize)]
     struct Numbered {
         id: u64,
@@ -73,19 +69,15 @@ fn reply_to(adapter: &mut dyn Adapter, line: &[u8]) -> Result<(Reply<Answer>, bo
 
     let text = std::str::from_utf8(line).map_err(serde::de::Error::custom)?;
     match read_strictly::<Request>(text) {
-        Ok(request) => {
-            let goes_on = !matches!(request.r#do, Command::Bye(_));
-            Ok((Reply::new(request.id, answer(adapter, &request.r#do)), goes_on))
-        }
+        Ok(request) => Ok(Reply::new(request.id, answer(adapter, &request.r#do))),
         Err(why) => {
             let Numbered { id } = serde_json::from_str(text)?;
-            Ok((Reply::new(id, Err(Decline::error(ErrorCode::RejectedInput, why.to_string()))), true))
+            Ok(Reply::new(id, Err(Decline::error(ErrorCode::RejectedInput, why.to_string()))))
         }
     }
 }
 
 /// The line that `serve` would write, for an adapter in the same process.
 pub(crate) fn reply_line(adapter: &mut dyn Adapter, line: &str) -> Result<String, serde_json::Error> {
-    let (reply, _) = reply_to(adapter, line.as_bytes())?;
-    serde_json::to_string(&reply)
+    serde_json::to_string(&reply_to(adapter, line.as_bytes())?)
 }

@@ -41,7 +41,7 @@ fn verdicts(report: &Report, expected: &[(&str, Verdict)]) {
 fn breaks(how: &str, verdict: Verdict, piece: &str) {
     let report = run(&mut program(&[how, "3"]), &two());
     verdicts(&report, &[("add-edge", verdict), ("remove-edge", verdict)]);
-    assert!(report.results.iter().all(|result| result.detail.contains(piece)), "{report:#?}");
+    assert!(report.results.iter().all(|result| result.failure.what.contains(piece)), "{report:#?}");
     assert_eq!(report.outcome(), Outcome::Unexpected);
 }
 
@@ -128,7 +128,7 @@ fn canary_who_lies_about_features_breaks_the_protocol() {
         ("lost-replacement", Verdict::Pass),
     ];
     verdicts(&report, &expected);
-    assert!(report.results[0].detail.contains("announced (restart)"), "{report:#?}");
+    assert!(report.results[0].failure.what.contains("announced, the feature restart"), "{report:#?}");
 }
 
 /// `[spec: CONF-3]` `[spec: CONF-8]` `[spec: CONF-9]` `[spec: CONF-10]`
@@ -154,7 +154,7 @@ fn law_who_takes_less_is_asked_less() {
         let report = run(&mut program(&[how]), &cases(patterns));
         assert_eq!(report.count(Verdict::Pass) + report.count(Verdict::Unsupported), report.results.len());
         let left_out = report.results.into_iter().filter(|result| result.verdict == Verdict::Unsupported);
-        left_out.map(|result| (result.id, result.detail)).collect::<Vec<_>>()
+        left_out.map(|result| (result.id, result.failure.what)).collect::<Vec<_>>()
     };
     let few = unsupported("few-replicas", &["universal/convergence/*"]);
     let needs = "needs 3 replicas; the adapter takes 2";
@@ -185,7 +185,8 @@ fn canary_a_join_that_counts_fails_where_deltas_come_twice() {
     let report = run(&mut program(&["twice-delivered"]), &cases(&["universal/delivery/*"]));
     let failed: Vec<&str> = failures(&report);
     assert_eq!(failed, ["universal/delivery/twice"]);
-    assert!(report.results[0].detail.contains("+ found"), "{report:#?}");
+    let failure = report.results.iter().find(|result| result.verdict == Verdict::Fail).unwrap();
+    assert_eq!(failure.failure.broken, Some("INV-6"), "{report:#?}");
 }
 
 /// `[spec: CONF-9]`

@@ -93,9 +93,9 @@ fn law_patterns_match_whole_ids() {
 }
 
 const SOUND: &str = r#"{
-  "format": 1, "family": "f", "topic": "t",
+  "format": 1, "family": "universal", "topic": "t",
   "cases": [{
-    "id": "f/t/one",
+    "id": "universal/t/one",
     "title": "t", "why": "w", "spec": ["MUT-1"], "level": "must", "requires": ["restart"], "replicas": ["a", "b"],
     "steps": [
       {"mutate": {"replica": "a", "mutations": [{"add_vertex": {"as": "v", "type": "t", "name": "n", "link": {"from": "root", "label": "RT"}}}], "as": "d"}},
@@ -110,18 +110,18 @@ const SOUND: &str = r#"{
 /// `[spec: CONF-11]`
 #[test]
 fn canary_a_file_with_a_fault_is_refused_with_place_and_remedy() {
-    read("f/t.json", SOUND).unwrap();
+    read("universal/t.json", SOUND).unwrap();
     let refused = |old: &str, new: &str, line: usize, pieces: [&str; 2]| {
         let text = SOUND.replacen(old, new, 1);
         assert_ne!(text, SOUND, "{old}");
-        let error = read("f/t.json", &text).unwrap_err();
-        assert_eq!((error.file.as_str(), error.line), ("f/t.json", line), "{error}");
+        let error = read("universal/t.json", &text).unwrap_err();
+        assert_eq!((error.file.as_str(), error.line), ("universal/t.json", line), "{error}");
         assert!(pieces.iter().all(|piece| error.to_string().contains(piece)), "{error}");
     };
     refused("\"format\": 1", "\"format\": 2", 1, ["format 2", "knows format 1"]);
     refused("\"topic\": \"t\"", "\"topic\": \"u\"", 1, ["topic \"u\"", "name it"]);
-    refused("f/t/one", "f/t/One", 4, ["\"f/t/One\"", "lower-case"]);
-    refused("f/t/one", "g/t/one", 4, ["\"g/t/one\"", "<family>/<topic>/<slug>"]);
+    refused("universal/t/one", "f/t/One", 4, ["\"f/t/One\"", "lower-case"]);
+    refused("universal/t/one", "g/t/one", 4, ["\"g/t/one\"", "<family>/<topic>/<slug>"]);
     refused("[\"restart\"]", "[]", 4, ["\"restart\"", "`requires`"]);
     refused("[\"a\", \"b\"],", "[\"a\", \"a\"],", 4, ["twice", "once"]);
     refused("\"delta\": \"d\"", "\"delta\": \"e\"", 4, ["step 2", "\"e\""]);
@@ -129,11 +129,19 @@ fn canary_a_file_with_a_fault_is_refused_with_place_and_remedy() {
     refused("\"as\": \"v\"", "\"as\": \"root\"", 4, ["step 1", "\"root\""]);
     refused("[\"a\", \"b\"]}", "[\"a\"]}", 4, ["step 4", "two or more"]);
     refused("\"why\"", "\"whom\"", 5, ["unknown field `whom`", "schema/case.json"]);
+    refused("\"universal\"", "\"mine\"", 1, ["\"mine\"", "families are"]);
+    refused("\"provenance\"", "\"profile\": \"wire\", \"provenance\"", 1, ["profile wire", "observe"]);
+    refused(
+        "{\"expect_equal\": {\"replicas\": [\"a\", \"b\"]}}",
+        "{\"expect_digest\": {\"replica\": \"a\", \"digest\": 1}}",
+        4,
+        ["profile \"causal\"", "`profile`"],
+    );
     refused("[\"MUT-1\"]", "[]", 4, ["no clause", "`spec`"]);
     let nothing = SOUND.find(",\n      {\"expect_equal\"").unwrap();
     let end = SOUND[nothing + 1..].find('\n').unwrap();
     let rest = &SOUND[nothing + 1 + end + 1..];
     let line_end = rest.find('\n').unwrap();
     let text = format!("{}{}", &SOUND[..nothing], &rest[line_end..]);
-    assert!(read("f/t.json", &text).unwrap_err().to_string().contains("nothing is expected"));
+    assert!(read("universal/t.json", &text).unwrap_err().to_string().contains("nothing is expected"));
 }

@@ -95,6 +95,25 @@ pub enum Malformed {
     },
 }
 
+impl Malformed {
+    /// The fault's name in the chapter on well-formedness, such as `HeldUnseen`.
+    pub const fn kind(&self) -> &'static str {
+        match self {
+            Self::HeldUnseen { .. } => "HeldUnseen",
+            Self::NotClosed { .. } => "NotClosed",
+            Self::WrongAnchor { .. } => "WrongAnchor",
+            Self::NoSuchAnchor { .. } => "NoSuchAnchor",
+            Self::SelfLoop { .. } => "SelfLoop",
+            Self::IntoRoot { .. } => "IntoRoot",
+            Self::NameLength { .. } => "NameLength",
+            Self::ValueSize { .. } => "ValueSize",
+            Self::Stamp { .. } => "Stamp",
+            Self::Sequence { .. } => "Sequence",
+            Self::Nan { .. } => "Nan",
+        }
+    }
+}
+
 /// Whether `state` is well-formed; names the first fault. `[spec: WF-1]` to `[spec: WF-6]`
 ///
 /// Every decoder calls this. Joins of well-formed states in which no dot was used twice keep WF-1, WF-2 and

@@ -1,7 +1,7 @@
 //! What the types of a case file cannot say.
 
-use super::{Case, CaseFile, FORMAT, Step};
-use crate::protocol::{Feature, Mutation, ROOT};
+use super::{Case, CaseFile, Encoded, FORMAT, Step};
+use crate::protocol::{Feature, Mutation, Need, Profile, ROOT};
 use std::collections::BTreeSet;
 
 /// What is wrong with a file.
@@ -17,7 +17,7 @@ type Wrong = (String, &'static str);
 /// The first fault.
 pub(super) fn fault(file: &str, cases: &CaseFile) -> Option<Fault> {
     let of_file = |(what, remedy): Wrong| Fault { case: None, what, remedy: remedy.into() };
-    if let Some(wrong) = wrong_header(file, cases) {
+    if let Err(wrong) = wrong_header(file, cases) {
         return Some(of_file(wrong));
     }
     let mut ids = BTreeSet::new();
@@ -36,15 +36,34 @@ pub(super) fn fault(file: &str, cases: &CaseFile) -> Option<Fault> {
     None
 }
 
-fn wrong_header(file: &str, cases: &CaseFile) -> Option<Wrong> {
+fn wrong_header(file: &str, cases: &CaseFile) -> Result<(), Wrong> {
     if cases.format != FORMAT {
-        return Some((format!("format {} is not known", cases.format), "this reader knows format 1"));
+        return Err((format!("format {} is not known", cases.format), "this reader knows format 1"));
+    }
+    let profile = match cases.family.as_str() {
+        "universal" | "resolution" => Profile::Observe,
+        "causal" => Profile::Causal,
+        "wire" => Profile::Wire,
+        family => {
+            let remedy = "the families are universal, resolution, causal and wire";
+            return Err((format!("there is no family {family:?}"), remedy));
+        }
+    };
+    if let Some(case) = cases.cases.iter().find(|case| case.profile != profile) {
+        let what = format!("{:?} has the profile {}", case.id, case.profile.name());
+        return Err((
+            what,
+            "cases of universal and resolution observe; those of causal and wire have these profiles",
+        ));
     }
     if file != format!("{}/{}.json", cases.family, cases.topic) {
         let what = format!("the file has family {:?} and topic {:?}", cases.family, cases.topic);
-        return Some((what, "name it <family>/<topic>.json"));
+        return Err((what, "name it <family>/<topic>.json"));
     }
-    cases.cases.is_empty().then(|| ("there is no case".into(), "write one, or delete the file"))
+    if cases.cases.is_empty() {
+        return Err(("there is no case".into(), "write one, or delete the file"));
+    }
+    Ok(())
 }
 
 fn wrong_id(cases: &CaseFile, case: &Case) -> Result<(), Wrong> {
@@ -73,25 +92,18 @@ impl<'c> Judged<'c> {
         if replicas.is_empty() || replicas.len() != case.replicas.len() {
             return Err(("replicas are missing or stand twice".into(), "name each replica once"));
         }
-        let requires: BTreeSet<Feature> = case.requires.iter().copied().collect();
-        let needed = case.dictionary.iter().map(|_| Feature::Dictionary);
-        for feature in needed.chain(case.steps.iter().filter_map(feature_of)) {
-            if !requires.contains(&feature) {
-                let what = format!("a step needs the feature {:?}", feature.name());
-                return Err((what, "add it to `requires`"));
-            }
+        let dictionary = case.dictionary.iter().map(|_| Need::Feature(Feature::Dictionary));
+        for need in dictionary.chain(case.steps.iter().filter_map(need_of)) {
+            announces(case, need)?;
         }
         for (step, number) in case.steps.iter().zip(1..) {
             self.step(step, &replicas)
                 .map_err(|(what, remedy)| (format!("step {number} of {:?}: {what}", case.id), remedy))?;
         }
-        let expects = |step: &Step| {
-            matches!(step, Step::Expect { .. } | Step::ExpectEqual { .. } | Step::ExpectRefused { .. })
-        };
-        if case.steps.iter().any(expects) {
+        if case.steps.iter().any(Step::expects) {
             Ok(())
         } else {
-            Err(("nothing is expected".into(), "add a step `expect`, `expect_equal` or `expect_refused`"))
+            Err(("nothing is expected".into(), "add a step whose name begins with `expect`"))
         }
     }
 
@@ -106,14 +118,32 @@ impl<'c> Judged<'c> {
                 }
                 r#as.as_deref().map_or(Ok(()), |name| self.name(name))
             }
-            Step::Answer { r#as, .. } => self.name(r#as),
-            Step::Deliver { delta, .. } if !self.deltas.contains(delta.as_str()) => {
-                Err((format!("no step before names the delta {delta:?}"), "give a step before it `as`"))
+            Step::Answer { r#as, .. }
+            | Step::Load { r#as, .. }
+            | Step::Decode { r#as, .. }
+            | Step::AnswerDigest { r#as, .. } => self.name(r#as),
+            Step::Group { deltas, .. } if deltas.len() < 2 => {
+                Err(("fewer than two deltas are grouped".into(), "name two or more"))
             }
+            Step::Group { deltas, r#as } => {
+                deltas.iter().try_for_each(|delta| self.is_named(delta))?;
+                self.name(r#as)
+            }
+            Step::Deliver { delta, .. }
+            | Step::ExpectDelta { delta, .. }
+            | Step::ExpectBytes { of: Encoded::Delta(delta), .. } => self.is_named(delta),
             Step::ExpectEqual { replicas } if replicas.len() < 2 => {
                 Err(("fewer than two replicas are compared".into(), "name two or more"))
             }
             _ => Ok(()),
+        }
+    }
+
+    fn is_named(&self, delta: &str) -> Result<(), Wrong> {
+        if self.deltas.contains(delta) {
+            Ok(())
+        } else {
+            Err((format!("no step before names the delta {delta:?}"), "give a step before it `as`"))
         }
     }
 
@@ -135,11 +165,41 @@ impl<'c> Judged<'c> {
     }
 }
 
-const fn feature_of(step: &Step) -> Option<Feature> {
+/// Whether a case requires what it needs.
+fn announces(case: &Case, need: Need) -> Result<(), Wrong> {
+    match need {
+        Need::Feature(feature) if !case.requires.contains(&feature) => {
+            Err((format!("a step needs the feature {:?}", feature.name()), "add it to `requires`"))
+        }
+        Need::Profile(profile) if case.profile < profile => {
+            Err((format!("a step needs the profile {:?}", profile.name()), "make it the case's `profile`"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// What a step asks of an adapter. `[spec: CONF-4]`
+const fn need_of(step: &Step) -> Option<Need> {
     match step {
-        Step::Restart { .. } => Some(Feature::Restart),
-        Step::Answer { .. } => Some(Feature::Resynchronisation),
-        _ => None,
+        Step::Mutate { .. }
+        | Step::Deliver { .. }
+        | Step::Expect { .. }
+        | Step::ExpectEqual { .. }
+        | Step::ExpectRefused { .. } => None,
+        Step::Restart { .. } => Some(Need::Feature(Feature::Restart)),
+        Step::Answer { .. } => Some(Need::Feature(Feature::Resynchronisation)),
+        Step::Group { .. } => Some(Need::Feature(Feature::Grouping)),
+        Step::ExpectVertex { .. } => Some(Need::Feature(Feature::Lookup)),
+        Step::Load { .. }
+        | Step::ExpectState { .. }
+        | Step::ExpectDelta { .. }
+        | Step::ExpectDigest { .. }
+        | Step::ExpectUnloadable { .. } => Some(Need::Profile(Profile::Causal)),
+        Step::Decode { .. }
+        | Step::AnswerDigest { .. }
+        | Step::ExpectBytes { .. }
+        | Step::ExpectUndecodable { .. }
+        | Step::ExpectUnanswerable { .. } => Some(Need::Profile(Profile::Wire)),
     }
 }
 
@@ -149,8 +209,21 @@ fn replicas_of(step: &Step) -> Vec<&str> {
         | Step::Deliver { replica, .. }
         | Step::Restart { replica, .. }
         | Step::Expect { replica, .. }
-        | Step::ExpectRefused { replica, .. } => vec![replica],
+        | Step::ExpectRefused { replica, .. }
+        | Step::ExpectVertex { replica, .. }
+        | Step::ExpectState { replica, .. }
+        | Step::ExpectDigest { replica, .. }
+        | Step::ExpectBytes { of: Encoded::Digest(replica) | Encoded::Fingerprint(replica), .. }
+        | Step::AnswerDigest { from: replica, .. }
+        | Step::ExpectUnanswerable { from: replica, .. } => vec![replica],
         Step::Answer { from, to, .. } => vec![from, to],
         Step::ExpectEqual { replicas } => replicas.iter().map(String::as_str).collect(),
+        Step::Group { .. }
+        | Step::Load { .. }
+        | Step::Decode { .. }
+        | Step::ExpectDelta { .. }
+        | Step::ExpectBytes { of: Encoded::Delta(_), .. }
+        | Step::ExpectUnloadable { .. }
+        | Step::ExpectUndecodable { .. } => Vec::new(),
     }
 }

@@ -28,6 +28,15 @@ pub(super) fn shown(view: &CoreView<'_>, handles: &Handles) -> View {
         vertices: Unique(view.vertices().iter().filter_map(vertex).collect()),
         edges: edges.collect(),
         root: RootView { attributes: attributes(VertexId::ROOT.0) },
+        hung: view.repairs().iter().filter_map(hung).map(|id| handles.name(id)).collect(),
         repairs: Some(view.repairs().iter().map(Repair::kind).map(String::from).collect()),
+    }
+}
+
+/// Whom a repair links to ROOT. `[spec: VIEW-4]` `[spec: VIEW-5]`
+const fn hung(repair: &Repair) -> Option<VertexId> {
+    match repair {
+        Repair::Detached { vertex } | Repair::Reattached { vertex } => Some(*vertex),
+        _ => None,
     }
 }

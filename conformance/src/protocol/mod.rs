@@ -1,6 +1,8 @@
 //! Requests and replies. `[spec: CONF-2]`
 
+mod hex;
 mod mutation;
+mod need;
 mod reply;
 mod request;
 mod strict;
@@ -8,13 +10,16 @@ mod unique;
 mod value;
 mod view;
 
+pub use hex::Hex;
 pub use mutation::{EdgeName, Link, Mutation};
+pub use need::{Feature, Need, Profile};
 pub use reply::{
-    Answer, Decline, Done, ErrorCode, ErrorReply, Feature, HelloReply, Implementation, Limits, MadeDelta,
-    Reply, Shown, Skip,
+    Answer, BytesShown, Decline, DigestShown, Done, ErrorCode, ErrorReply, Found, HelloReply, Implementation,
+    Limits, MadeDelta, Reply, Shown, Skip, StateShown,
 };
 pub use request::{
-    AnswerFor, CaseBegin, Command, Deliver, Hello, Mutate, Nothing, Read, ReplicaName, Request, Restart,
+    AnswerDigest, AnswerFor, CaseBegin, Command, Decode, Deliver, DeltaName, Group, Hello, Load, Lookup,
+    Mutate, Read, ReplicaName, Request, Restart,
 };
 pub use strict::read_strictly;
 pub use unique::Unique;
@@ -27,5 +32,3 @@ pub const PROTOCOL: u32 = 1;
 pub const LINE_BYTES_MAX: usize = 1 << 20;
 /// The handle of the root. `[spec: CONF-5]`
 pub const ROOT: &str = "root";
-/// The name of the profile that looks at graphs alone.
-pub const OBSERVE: &str = "observe";

@@ -1,6 +1,6 @@
 //! What the adapter replies. `[spec: CONF-8]`
 
-use super::View;
+use super::{Hex, View};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -61,15 +61,23 @@ impl Decline {
 }
 
 /// What each command gives if it succeeds.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize, JsonSchema)]
+#[derive(Clone, PartialEq, Debug, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Answer {
     /// Of `hello`.
     Hello(HelloReply),
-    /// Of `mutate` and `answer`.
+    /// Of `mutate`, `group`, `answer`, `load`, `decode` and `answer_digest`.
     Delta(MadeDelta),
     /// Of `read`.
     View(Shown),
+    /// Of `lookup`.
+    Vertex(Found),
+    /// Of `state` and `delta`.
+    State(StateShown),
+    /// Of `digest`.
+    Digest(DigestShown),
+    /// Of `encode`, `encode_digest` and `fingerprint`.
+    Bytes(BytesShown),
     /// Of every other.
     Done(Done),
 }
@@ -114,39 +122,6 @@ pub struct Limits {
     pub replicas: usize,
 }
 
-/// The features that cases may require.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Feature {
-    /// `case_begin` takes a dictionary.
-    Dictionary,
-    /// A refused mutation names the kind of its error.
-    ErrorKinds,
-    /// A view names its repairs.
-    Repairs,
-    /// The command `restart`.
-    Restart,
-    /// The command `answer`.
-    Resynchronisation,
-}
-
-impl Feature {
-    /// All of them.
-    pub const ALL: [Self; 5] =
-        [Self::Dictionary, Self::ErrorKinds, Self::Repairs, Self::Restart, Self::Resynchronisation];
-
-    /// Its name.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Dictionary => "dictionary",
-            Self::ErrorKinds => "error-kinds",
-            Self::Repairs => "repairs",
-            Self::Restart => "restart",
-            Self::Resynchronisation => "resynchronisation",
-        }
-    }
-}
-
 /// A delta that the adapter keeps.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -161,6 +136,40 @@ pub struct MadeDelta {
 pub struct Shown {
     /// The graph.
     pub view: View,
+}
+
+/// Which vertex a name finds.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Found {
+    /// Its handle; null if none has the name.
+    #[serde(deserialize_with = "Option::deserialize")]
+    #[schemars(required)]
+    pub vertex: Option<String>,
+}
+
+/// A state, or a delta: JSON-12.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StateShown {
+    /// The state.
+    pub state: serde_json::Value,
+}
+
+/// A digest: JSON-13.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DigestShown {
+    /// The digest.
+    pub digest: serde_json::Value,
+}
+
+/// Bytes.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BytesShown {
+    /// As hexadecimal digits.
+    pub bytes: Hex,
 }
 
 /// Done, with nothing to tell.

@@ -1,12 +1,12 @@
 //! What the harness asks. `[spec: CONF-4]`
 
-use super::Mutation;
+use super::{Feature, Hex, Mutation, Need, Profile};
 use dsr_core::Dictionary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// One line from the harness to the adapter. `[spec: CONF-2]`
-#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Request {
     /// Which reply belongs to it.
@@ -16,14 +16,14 @@ pub struct Request {
 }
 
 /// What is asked.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Command {
     /// The handshake.
     Hello(Hello),
     /// A case begins: its replicas are empty.
     CaseBegin(CaseBegin),
-    /// A replica makes mutations as one group; the delta stays in the adapter, under the handle replied.
+    /// A replica makes mutations as one group; the delta stays in the adapter, under the name replied.
     Mutate(Mutate),
     /// A delta arrives at a replica.
     Deliver(Deliver),
@@ -33,10 +33,57 @@ pub enum Command {
     Restart(Restart),
     /// One replica makes the delta that another lacks. Feature `resynchronisation`.
     Answer(AnswerFor),
-    /// The case is over: everything of it may be forgotten.
-    CaseEnd(Nothing),
-    /// No request follows.
-    Bye(Nothing),
+    /// Deltas become one message. Feature `grouping`.
+    Group(Group),
+    /// Which vertex a name finds. Feature `lookup`.
+    Lookup(Lookup),
+    /// A replica's state. Profile `causal`.
+    State(Read),
+    /// A delta, as the state that it is. Profile `causal`.
+    Delta(DeltaName),
+    /// A replica's digest. Profile `causal`.
+    Digest(Read),
+    /// A delta from outside. Profile `causal`.
+    Load(Load),
+    /// The bytes of a delta. Profile `wire`.
+    Encode(DeltaName),
+    /// The bytes of a replica's digest. Profile `wire`.
+    EncodeDigest(Read),
+    /// A replica's fingerprint. Profile `wire`.
+    Fingerprint(Read),
+    /// A delta from outside, as bytes. Profile `wire`.
+    Decode(Decode),
+    /// The delta for a digest from outside, as bytes. Profile `wire`.
+    AnswerDigest(AnswerDigest),
+}
+
+impl Command {
+    /// What an adapter must have announced to be asked this, beyond the profile `observe`; see also
+    /// [`CaseBegin::dictionary`]. `[spec: CONF-4]`
+    pub const fn needs(&self) -> Option<Need> {
+        match self {
+            Self::Hello(_) | Self::Mutate(_) | Self::Deliver(_) | Self::Read(_) => None,
+            Self::CaseBegin(begin) => {
+                if begin.dictionary.is_some() {
+                    Some(Need::Feature(Feature::Dictionary))
+                } else {
+                    None
+                }
+            }
+            Self::Restart(_) => Some(Need::Feature(Feature::Restart)),
+            Self::Answer(_) => Some(Need::Feature(Feature::Resynchronisation)),
+            Self::Group(_) => Some(Need::Feature(Feature::Grouping)),
+            Self::Lookup(_) => Some(Need::Feature(Feature::Lookup)),
+            Self::State(_) | Self::Delta(_) | Self::Digest(_) | Self::Load(_) => {
+                Some(Need::Profile(Profile::Causal))
+            }
+            Self::Encode(_)
+            | Self::EncodeDigest(_)
+            | Self::Fingerprint(_)
+            | Self::Decode(_)
+            | Self::AnswerDigest(_) => Some(Need::Profile(Profile::Wire)),
+        }
+    }
 }
 
 /// The name of a replica within a case.
@@ -117,7 +164,54 @@ pub struct AnswerFor {
     pub to: ReplicaName,
 }
 
-/// A command without arguments.
-#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize, JsonSchema)]
+/// See [`Command::Group`].
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Nothing {}
+pub struct Group {
+    /// Two or more, as the adapter named them.
+    pub deltas: Vec<String>,
+}
+
+/// See [`Command::Lookup`].
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Lookup {
+    /// Who looks.
+    pub replica: ReplicaName,
+    /// A vertex's name.
+    pub name: String,
+}
+
+/// See [`Command::Delta`] and [`Command::Encode`].
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DeltaName {
+    /// As the adapter named it.
+    pub delta: String,
+}
+
+/// See [`Command::Load`].
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Load {
+    /// What should be a state: the adapter is to find out whether it is.
+    pub state: serde_json::Value,
+}
+
+/// See [`Command::Decode`].
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Decode {
+    /// What should be a state.
+    pub bytes: Hex,
+}
+
+/// See [`Command::AnswerDigest`].
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AnswerDigest {
+    /// Who makes the delta.
+    pub from: ReplicaName,
+    /// What should be a digest.
+    pub bytes: Hex,
+}

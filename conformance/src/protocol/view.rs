@@ -14,6 +14,9 @@ pub struct View {
     pub edges: Vec<EdgeView>,
     /// The root.
     pub root: RootView,
+    /// The vertices that hang from ROOT by repair, without an edge (VIEW-4, VIEW-5), by handle.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub hung: Vec<String>,
     /// The kind of each repair (JSON-14), as often as it was made. Feature `repairs`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub repairs: Option<Vec<String>>,
@@ -61,6 +64,7 @@ impl View {
     #[must_use]
     pub fn canonical(mut self) -> Self {
         self.edges.sort_unstable();
+        self.hung.sort_unstable();
         if let Some(repairs) = &mut self.repairs {
             repairs.sort_unstable();
         }

@@ -68,7 +68,13 @@ impl Open for Program {
         thread::spawn(move || write_lines(stdin, &to_write));
         thread::spawn(move || read_lines(BufReader::new(stdout), longest, &replies));
         thread::spawn(move || keep_last(stderr, &words));
-        Ok(Box::new(Running { child, requests, replies: to_read, last_words, limits: self.limits }))
+        Ok(Box::new(Running {
+            child,
+            requests: Some(requests),
+            replies: to_read,
+            last_words,
+            limits: self.limits,
+        }))
     }
 }
 
@@ -80,7 +86,8 @@ enum Heard {
 
 struct Running {
     child: Child,
-    requests: Sender<String>,
+    /// None once the input has ended.
+    requests: Option<Sender<String>>,
     replies: Receiver<Heard>,
     last_words: Arc<Mutex<VecDeque<u8>>>,
     limits: ChildLimits,
@@ -92,7 +99,7 @@ impl Peer for Running {
             return Err(trouble);
         }
         // A writer that has ended shows as the end of the replies.
-        let _ = self.requests.send(format!("{line}\n"));
+        let _ = self.requests.as_ref().map(|requests| requests.send(format!("{line}\n")));
         match self.replies.recv_timeout(self.limits.reply) {
             Ok(Heard::Line(line)) => Ok(line),
             Ok(Heard::Wrong(what)) => Err(Trouble::protocol(what)),
@@ -110,6 +117,11 @@ impl Peer for Running {
             Err(TryRecvError::Disconnected) => Some(Trouble::Crash { how: self.end() }),
             Err(TryRecvError::Empty) => None,
         }
+    }
+
+    fn finish(&mut self) {
+        self.requests = None;
+        self.end();
     }
 
     fn last_words(&mut self) -> String {

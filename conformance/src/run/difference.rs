@@ -1,12 +1,10 @@
-//! Two views, compared for people. `[spec: CONF-7]`
+//! What is expected and what is found, compared for people. `[spec: CONF-7]`
 
 use crate::protocol::View;
+use dsr_core::State;
 
 /// What two views in canonical form differ in, line by line.
 pub(super) fn differ(expected: &View, found: &View) -> Option<String> {
-    if expected == found {
-        return None;
-    }
     let lines = |view: &View| {
         let mut lines = Vec::new();
         lines.extend(
@@ -14,13 +12,27 @@ pub(super) fn differ(expected: &View, found: &View) -> Option<String> {
         );
         lines.extend(view.edges.iter().map(|edge| format!("edge {}", text(edge))));
         lines.push(format!("root {}", text(&view.root)));
+        lines.push(format!("hung {}", text(&view.hung)));
         lines.push(format!("repairs {}", text(&view.repairs)));
         lines
     };
-    let (expected, found) = (lines(expected), lines(found));
-    let missing = without(&expected, &found).map(|line| format!("\n  - expected {line}"));
-    let surplus = without(&found, &expected).map(|line| format!("\n  + found    {line}"));
-    Some(missing.chain(surplus).collect())
+    (expected != found).then(|| in_lines(&lines(expected), &lines(found)))
+}
+
+/// What two states differ in, line by line.
+pub(super) fn differ_in_state(expected: &State, found: &State) -> Option<String> {
+    let lines = |state: &State| {
+        let mut lines = vec![format!("context {}", text(state.context()))];
+        lines.extend(state.records().map(|(dot, record)| format!("{dot} {}", text(record))));
+        lines
+    };
+    (expected != found).then(|| in_lines(&lines(expected), &lines(found)))
+}
+
+fn in_lines(expected: &[String], found: &[String]) -> String {
+    let missing = without(expected, found).map(|line| format!("\n  - expected {line}"));
+    let surplus = without(found, expected).map(|line| format!("\n  + found    {line}"));
+    missing.chain(surplus).collect()
 }
 
 /// The lines of one list that the other has not, or not as often.
@@ -32,7 +44,7 @@ fn without<'l>(lines: &'l [String], others: &'l [String]) -> impl Iterator<Item 
         .filter_map(move |(at, line)| (count(&lines[..=at], line) > count(others, line)).then_some(line))
 }
 
-/// A part of a view as JSON.
+/// A part as JSON.
 fn text(part: &impl serde::Serialize) -> String {
     serde_json::to_string(part).unwrap_or_else(|error| error.to_string())
 }

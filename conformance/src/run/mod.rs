@@ -7,6 +7,7 @@ mod peer;
 mod session;
 
 pub use child::{ChildLimits, Program};
+pub use judge::{Broken, Failure, Tree, broken};
 pub use peer::{InProcess, Open, Peer, Trouble};
 
 use crate::case::Case;
@@ -31,7 +32,8 @@ pub fn run(open: &mut dyn Open, cases: &[Case]) -> Report {
                 Ok(session) => session,
                 Err(trouble) => {
                     failed_starts += 1;
-                    report.add(CaseResult::of(case, verdict_of(&trouble), trouble.to_string()));
+                    let failure = Failure { what: trouble.to_string(), ..Failure::default() };
+                    report.add(CaseResult::of(case, verdict_of(&trouble), failure));
                     if failed_starts == FAILED_STARTS_MAX {
                         break;
                     }
@@ -42,17 +44,18 @@ pub fn run(open: &mut dyn Open, cases: &[Case]) -> Report {
         failed_starts = 0;
         report.implementation.get_or_insert_with(|| at_hand.hello.implementation.clone());
         match judge::judge(&mut at_hand, case) {
-            Ok((verdict, detail)) => {
-                report.add(CaseResult::of(case, verdict, detail));
+            Ok((verdict, failure)) => {
+                report.add(CaseResult::of(case, verdict, failure));
                 session = Some(at_hand);
             }
-            Err(trouble) => {
-                report.add(CaseResult::of(case, verdict_of(&trouble), at_hand.told(&trouble)));
+            Err((trouble, step)) => {
+                let failure = Failure { step, broken: None, what: at_hand.told(&trouble) };
+                report.add(CaseResult::of(case, verdict_of(&trouble), failure));
             }
         }
     }
     if let Some(session) = still_sound(session, &mut report) {
-        session.bye();
+        session.finish();
     }
     report
 }
@@ -63,7 +66,8 @@ fn still_sound(session: Option<Session>, report: &mut Report) -> Option<Session>
     let mut session = session?;
     let Some(trouble) = session.unasked() else { return Some(session) };
     if let Some(last) = report.results.last_mut() {
-        (last.verdict, last.detail) = (verdict_of(&trouble), session.told(&trouble));
+        let failure = Failure { what: session.told(&trouble), ..Failure::default() };
+        (last.verdict, last.failure) = (verdict_of(&trouble), failure);
     }
     None
 }
@@ -90,6 +94,6 @@ const fn verdict_of(trouble: &Trouble) -> Verdict {
 pub fn hello(open: &mut dyn Open) -> Result<HelloReply, Trouble> {
     let session = begin(open)?;
     let hello = session.hello.clone();
-    session.bye();
+    session.finish();
     Ok(hello)
 }

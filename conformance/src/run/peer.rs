@@ -42,6 +42,9 @@ pub trait Peer {
         None
     }
 
+    /// Ends its input, and lets it end.
+    fn finish(&mut self) {}
+
     /// The last that it wrote to standard error, for people.
     fn last_words(&mut self) -> String {
         String::new()

@@ -3,8 +3,7 @@
 use super::child::excerpt;
 use super::peer::{Peer, Trouble};
 use crate::protocol::{
-    Command, Decline, Done, ErrorCode, Feature, Hello, HelloReply, Nothing, OBSERVE, Reply, Request,
-    read_strictly,
+    Command, Decline, ErrorCode, Feature, Hello, HelloReply, Need, Profile, Reply, Request, read_strictly,
 };
 use serde::Serialize;
 use serde::de::{DeserializeOwned, IgnoredAny};
@@ -30,11 +29,20 @@ impl Session {
             let what = format!("protocol {} is none of those offered: {offered:?}", hello.protocol);
             return Err(Trouble::protocol(what));
         }
-        if !hello.profiles.iter().any(|profile| profile == OBSERVE) {
-            let what = format!("profiles {:?} lack {OBSERVE:?}", hello.profiles);
-            return Err(Trouble::protocol(what));
+        let observe = Profile::Observe.name();
+        if !hello.profiles.iter().any(|profile| profile == observe) {
+            return Err(Trouble::protocol(format!("profiles {:?} lack {observe:?}", hello.profiles)));
         }
         Ok(Self { peer, next_id: 2, hello })
+    }
+
+    pub(super) fn has_profile(&self, profile: Profile) -> bool {
+        self.hello.profiles.iter().any(|name| name == profile.name())
+    }
+
+    /// Whether refusals name their kind.
+    pub(super) fn tells_kinds(&self) -> bool {
+        self.has(Feature::ErrorKinds)
     }
 
     pub(super) fn has(&self, feature: Feature) -> bool {
@@ -45,9 +53,8 @@ impl Session {
     pub(super) fn ask<T: DeserializeOwned + Serialize>(
         &mut self,
         command: Command,
-        needs: Option<Feature>,
     ) -> Result<Result<T, Decline>, Trouble> {
-        let id = self.next_id;
+        let (id, needs) = (self.next_id, command.needs());
         self.next_id += 1;
         let reply = ask(&mut *self.peer, id, command)?;
         if let Err(decline) = &reply {
@@ -56,7 +63,7 @@ impl Session {
         Ok(reply)
     }
 
-    fn keeps_its_word(&self, decline: &Decline, needs: Option<Feature>) -> Result<(), Trouble> {
+    fn keeps_its_word(&self, decline: &Decline, needs: Option<Need>) -> Result<(), Trouble> {
         match decline {
             Decline::Skip(skip) => match &skip.feature {
                 Some(feature) if self.hello.features.contains(feature) => Err(Trouble::protocol(format!(
@@ -66,9 +73,9 @@ impl Session {
                 _ => Ok(()),
             },
             Decline::Error(error) if error.code == ErrorCode::Unsupported => {
-                let what = needs.map_or("part of the profile", Feature::name);
+                let what = needs.unwrap_or(Need::Profile(Profile::Observe));
                 Err(Trouble::protocol(format!(
-                    "does not support what it has announced ({what}): {}",
+                    "does not support what it has announced, {what}: {}",
                     error.message
                 )))
             }
@@ -97,9 +104,9 @@ impl Session {
         if words.is_empty() { trouble.to_string() } else { format!("{trouble}\nstandard error:\n{words}") }
     }
 
-    /// Says good-bye; what is said to that matters no more.
-    pub(super) fn bye(mut self) {
-        let _ = ask::<Done>(&mut *self.peer, self.next_id, Command::Bye(Nothing {}));
+    /// Ends the conversation.
+    pub(super) fn finish(mut self) {
+        self.peer.finish();
     }
 }
 

@@ -4,8 +4,9 @@ mod lines;
 
 use dsr_conformance::adapter::{Adapter, Core};
 use dsr_conformance::protocol::{
-    AnswerFor, CaseBegin, Decline, Deliver, ErrorCode, Feature, Hello, HelloReply, Limits, MadeDelta, Mutate,
-    Mutation, Read, Restart, Shown,
+    AnswerDigest, AnswerFor, BytesShown, CaseBegin, Decline, Decode, Deliver, DeltaName, DigestShown,
+    ErrorCode, Feature, Found, Group, Hello, HelloReply, Limits, Load, Lookup, MadeDelta, Mutate, Mutation,
+    Read, Restart, Shown, StateShown,
 };
 use dsr_conformance::serve::serve;
 use lines::{Mangling, chatter, endless, hang};
@@ -52,6 +53,24 @@ macro_rules! as_the_core {
     };
 }
 
+macro_rules! and_the_rest_too {
+    () => {
+        as_the_core! {
+            group(Group) -> MadeDelta;
+            lookup(Lookup) -> Found;
+            state(Read) -> StateShown;
+            delta(DeltaName) -> StateShown;
+            digest(Read) -> DigestShown;
+            load(Load) -> MadeDelta;
+            encode(DeltaName) -> BytesShown;
+            encode_digest(Read) -> BytesShown;
+            fingerprint(Read) -> BytesShown;
+            decode(Decode) -> MadeDelta;
+            answer_digest(AnswerDigest) -> MadeDelta;
+        }
+    };
+}
+
 /// Shows an edge twice that arrived twice: a join that is not idempotent.
 struct Counting {
     core: Core,
@@ -66,6 +85,7 @@ impl Counting {
 }
 
 impl Adapter for Counting {
+    and_the_rest_too!();
     as_the_core! {
         hello(Hello) -> HelloReply;
         mutate(Mutate) -> MadeDelta;
@@ -108,6 +128,7 @@ impl Forgetful {
 }
 
 impl Adapter for Forgetful {
+    and_the_rest_too!();
     as_the_core! {
         hello(Hello) -> HelloReply;
         read(Read) -> Shown;
@@ -143,6 +164,7 @@ impl Mean {
 }
 
 impl Adapter for Mean {
+    and_the_rest_too!();
     as_the_core! {
         hello(Hello) -> HelloReply;
         begin(CaseBegin) -> ();
@@ -167,6 +189,7 @@ impl Small {
 }
 
 impl Adapter for Small {
+    and_the_rest_too!();
     as_the_core! {
         begin(CaseBegin) -> ();
         mutate(Mutate) -> MadeDelta;
@@ -192,6 +215,7 @@ impl Liar {
 }
 
 impl Adapter for Liar {
+    and_the_rest_too!();
     as_the_core! {
         hello(Hello) -> HelloReply;
         begin(CaseBegin) -> ();
@@ -212,6 +236,7 @@ impl Modest {
 }
 
 impl Adapter for Modest {
+    and_the_rest_too!();
     as_the_core! {
         begin(CaseBegin) -> ();
         mutate(Mutate) -> MadeDelta;
@@ -220,6 +245,7 @@ impl Adapter for Modest {
     fn hello(&mut self, hello: &Hello) -> Result<HelloReply, Decline> {
         let mut reply = self.0.hello(hello)?;
         reply.features = vec!["a-feature-of-tomorrow".into()];
+        reply.profiles = vec!["observe".into(), "a-profile-of-tomorrow".into()];
         Ok(reply)
     }
 
@@ -245,6 +271,7 @@ impl Errs {
 }
 
 impl Adapter for Errs {
+    and_the_rest_too!();
     as_the_core! {
         hello(Hello) -> HelloReply;
         begin(CaseBegin) -> ();
