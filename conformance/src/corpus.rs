@@ -7,26 +7,8 @@ pub const VERSION: &str = "1.0.0";
 /// The version of the specification that it is written for.
 pub const SPEC_VERSION: &str = "0.1";
 
-macro_rules! files {
-    ($($path:literal),* $(,)?) => {
-        /// Each file: its path, and its text.
-        pub const FILES: &[(&str, &str)] = &[$(($path, include_str!(concat!("../corpus/v1/", $path)))),*];
-    };
-}
-
-files! {
-    "causal/states.json",
-    "resolution/attributes.json",
-    "resolution/edges.json",
-    "resolution/names.json",
-    "resolution/tree.json",
-    "universal/convergence.json",
-    "universal/delivery.json",
-    "universal/mutations.json",
-    "universal/recovery.json",
-    "universal/refusals.json",
-    "wire/bytes.json",
-}
+/// Each file of the corpus, in order: its path, and its text.
+pub const FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/files.rs"));
 
 /// Every case, in the order of files and within them.
 pub fn cases() -> Result<Vec<Case>, CaseError> {
