@@ -1,5 +1,7 @@
 //! `dsr conform`: the corpus of conformance cases, against any adapter.
 
+mod new_adapter;
+
 use crate::output::{add, err, out};
 use crate::status::Status;
 use dsr_conformance::adapter::Core;
@@ -21,6 +23,7 @@ Examples:
   dsr conform run -- python3 adapter.py
   dsr conform run --only 'universal/*' --format json -- ./adapter
   dsr conform list --only '*/refusals/*'
+  dsr conform new-adapter --lang python --to my-adapter
   echo '{\"id\":1,\"do\":{\"hello\":{\"protocols\":[1],\"spec\":\"0.1\",\"corpus\":\"1.0.0\"}}}' | dsr conform adapter
 
 Exit status: 0 as expected, 1 a case that is a MUST is not, 2 a case was skipped or not run, or none passed, 3 wrong usage.";
@@ -58,6 +61,8 @@ enum Command {
         #[command(flatten)]
         choice: Choice,
     },
+    /// Writes an adapter to start from, with a small implementation inside
+    NewAdapter(new_adapter::Arguments),
     /// Is an adapter of this program's core, on standard input and output
     Adapter,
 }
@@ -111,6 +116,7 @@ impl Arguments {
                     .and_then(|cases| shown(&mut program, &cases, printed.format, &command.join(" ")))
             }
             Some(Command::List { choice }) => choice.cases().map(|cases| list(&cases)),
+            Some(Command::NewAdapter(arguments)) => return arguments.run(),
             Some(Command::Adapter) => return adapter(),
         };
         ended.unwrap_or_else(|error| {

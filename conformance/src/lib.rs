@@ -23,3 +23,4 @@ pub mod protocol;
 pub mod report;
 pub mod run;
 pub mod serve;
+pub mod templates;

@@ -91,7 +91,7 @@ class Graph:
         self.add_edge(given["new"], attributes)
     def remove_vertex(self, given, _):
         check(given["vertex"] in self.vertices() - {"root"}, "the vertex is the root, or not there")
-        for element in [given["vertex"]] + [edge for edge in self.edges() if given["vertex"] in (edge[0], edge[2])]:
+        for element in [edge for edge in self.edges() if given["vertex"] in (edge[0], edge[2])] + [given["vertex"]]:
             self.put(element, {}, {})
 
 class Adapter:
