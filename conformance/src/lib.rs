@@ -12,6 +12,7 @@
 //! | [`adapter`], [`serve`] | what answers requests; the core as such; the loop over lines |
 //! | [`run`] | a case against an adapter, in-process or as a child process |
 //! | [`report`] | verdicts, counted |
+//! | [`templates`] | adapters to start from, in other languages |
 
 #![forbid(unsafe_code)]
 

@@ -1,0 +1,54 @@
+//! A library in JavaScript against the cases, and its failures against those that are explained.
+
+mod common;
+
+use common::dsr;
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// The verdicts other than a pass: the verdict and the id of the case.
+fn verdicts(text: &str) -> BTreeSet<(String, String)> {
+    let known = ["fail", "error", "crash", "timeout", "protocol_error", "skip"];
+    let lines = text.lines().filter_map(|line| {
+        let mut words = line.split(' ');
+        let (verdict, id) = (words.next()?, words.next()?);
+        known.contains(&verdict).then(|| (verdict.to_owned(), id.to_owned()))
+    });
+    lines.collect()
+}
+
+/// `[spec: CONF-9]`
+#[test]
+fn conform_delta_crdts_fails_as_explained() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../peers-js");
+    let has_node = std::process::Command::new("node").arg("--version").output().is_ok();
+    if !has_node || !Path::new(folder).join("node_modules").is_dir() {
+        let required = std::env::var("DSR_TOOLCHAINS").is_ok_and(|value| value == "required");
+        assert!(!required, "node is missing, or `npm ci` has not been run in peers-js");
+        println!("skipped: node is missing, or `npm ci` has not been run in peers-js");
+        return;
+    }
+    let run = dsr(&["conform", "run", "--", "node", &format!("{folder}/adapter.js")]);
+    assert_eq!(run.err, "", "{run:?}");
+    let text = include_str!("../../peers-js/expected.json");
+    let file: serde_json::Value = serde_json::from_str(text).unwrap();
+    let expected: Vec<(&str, &str)> = file["expected"].as_array().unwrap().iter().map(pair).collect();
+    let found = verdicts(&run.out);
+    for (verdict, id) in &found {
+        let is_explained = expected
+            .iter()
+            .any(|(expected, glob)| expected == verdict && dsr_conformance::corpus::matches(glob, id));
+        assert!(is_explained, "{verdict} {id} is not explained:\n{}", run.out);
+    }
+    for (verdict, glob) in &expected {
+        let is_found =
+            found.iter().any(|(found, id)| found == verdict && dsr_conformance::corpus::matches(glob, id));
+        assert!(is_found, "nothing is a {verdict} for {glob:?}: delete the entry");
+    }
+    assert!(run.out.contains("(\"delta-crdts\" \"0.10.3\"): "), "{run:?}");
+}
+
+fn pair(entry: &serde_json::Value) -> (&str, &str) {
+    assert!(entry["reason"].as_str().is_some_and(|reason| reason.len() > 40), "{entry} explains nothing");
+    (entry["verdict"].as_str().unwrap(), entry["case"].as_str().unwrap())
+}
