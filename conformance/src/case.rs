@@ -2,8 +2,10 @@
 
 mod check;
 mod read;
+mod write;
 
 pub use read::{CaseError, read};
+pub use write::write;
 
 use crate::protocol::{Feature, Hex, Mutation, Profile, ReplicaName, View};
 use dsr_core::Dictionary;
@@ -85,6 +87,9 @@ pub enum Level {
 pub struct Provenance {
     /// How it came about.
     pub kind: Origin,
+    /// The row of the gallery.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub row: Option<String>,
 }
 
 /// How a case came about.
@@ -93,6 +98,8 @@ pub struct Provenance {
 pub enum Origin {
     /// Written by hand, from the specification.
     Hand,
+    /// The schedule of a known anomaly of the published system: a row of the checker's gallery.
+    Gallery,
 }
 
 /// One step.

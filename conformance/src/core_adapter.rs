@@ -15,7 +15,8 @@ use dsr_core::{
     Author, DecodeError, Delta, Dictionary, ReplicaId, State, decode, decode_digest, delta_for, digest,
     encode, encode_digest, fingerprint, view,
 };
-use handles::Handles;
+pub(crate) use handles::Handles;
+pub(crate) use shown::shown;
 use std::collections::BTreeMap;
 
 const REPLICAS_MAX: usize = 64;
@@ -144,7 +145,7 @@ impl Adapter for Core {
 
     fn read(&mut self, read: &Read) -> Result<Shown, Decline> {
         let view = view(self.state_of(&read.replica)?, &self.dictionary);
-        Ok(Shown { view: shown::shown(&view, &self.handles) })
+        Ok(Shown { view: shown(&view, &self.handles) })
     }
 
     fn group(&mut self, group: &Group) -> Result<MadeDelta, Decline> {

@@ -13,6 +13,7 @@
 //! | [`run`] | a case against an adapter, in-process or as a child process |
 //! | [`report`] | verdicts, counted |
 //! | [`templates`] | adapters to start from, in other languages |
+//! | [`generate`] | cases that are computed from what the checker has found |
 
 #![forbid(unsafe_code)]
 
@@ -20,6 +21,7 @@ pub mod adapter;
 pub mod case;
 mod core_adapter;
 pub mod corpus;
+pub mod generate;
 pub mod protocol;
 pub mod report;
 pub mod run;

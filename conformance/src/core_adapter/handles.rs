@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 /// The handles of one case, shared by its replicas.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Handles {
+pub(crate) struct Handles {
     ids: BTreeMap<String, VertexId>,
     names: BTreeMap<VertexId, String>,
 }
@@ -22,6 +22,19 @@ impl Handles {
         } else {
             self.names.get(&id).cloned().unwrap_or_else(|| id.to_string())
         }
+    }
+
+    /// The handle of a vertex, if it has one.
+    pub(crate) fn given(&self, id: VertexId) -> Option<String> {
+        if id.is_root() { Some(ROOT.into()) } else { self.names.get(&id).cloned() }
+    }
+
+    /// Gives a vertex a handle after its name, with a number where that is taken.
+    pub(crate) fn name_after(&mut self, name: &str, id: VertexId) {
+        let taken = name == ROOT || self.ids.contains_key(name);
+        let handle = if taken { format!("{name}-{}", self.ids.len()) } else { name.into() };
+        self.ids.insert(handle.clone(), id);
+        self.names.insert(id, handle);
     }
 
     fn id(&self, handle: &str) -> Result<VertexId, Decline> {

@@ -4,7 +4,7 @@ use super::handles::Handles;
 use crate::protocol::{EdgeView, RootView, Tagged, Unique, VertexView, View};
 use dsr_core::{Dot, Repair, VertexId, View as CoreView};
 
-pub(super) fn shown(view: &CoreView<'_>, handles: &Handles) -> View {
+pub(crate) fn shown(view: &CoreView<'_>, handles: &Handles) -> View {
     let attributes = |dot: Dot| {
         let winners = view.attributes_of(dot);
         Unique(winners.map(|(_, write)| (write.name.to_string(), Tagged(write.value.clone()))).collect())

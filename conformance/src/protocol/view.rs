@@ -31,7 +31,7 @@ pub struct VertexView {
     /// Its name.
     pub name: String,
     /// What readers get of each attribute.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Unique::is_empty")]
     pub attributes: Unique<Tagged>,
 }
 
@@ -46,7 +46,7 @@ pub struct EdgeView {
     /// The target's handle.
     pub to: String,
     /// What readers get of each attribute.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Unique::is_empty")]
     pub attributes: Unique<Tagged>,
 }
 
@@ -55,7 +55,7 @@ pub struct EdgeView {
 #[serde(deny_unknown_fields)]
 pub struct RootView {
     /// What readers get of each attribute.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Unique::is_empty")]
     pub attributes: Unique<Tagged>,
 }
 

@@ -43,11 +43,16 @@ impl Twin {
     }
 }
 
+/// What the first replica of a row has done before it begins, all but a joiner having heard of it, as mutations.
+pub fn mutations_before(row: &Row) -> Vec<Mutation> {
+    Cast::new(&row.setup).set_up(&row.setup).1
+}
+
 /// Runs a schedule of a row on the checked semantics; `None` if it is none of the row's.
 pub fn run_checked(row: &Row, schedule: &[Happening]) -> Option<Twin> {
     let setup = &row.setup;
     let mut cast = Cast::new(setup);
-    let initial = cast.set_up(setup);
+    let (initial, _) = cast.set_up(setup);
     let dictionary = Dictionary::open();
     let alphabet = Alphabet::of(&[], Vec::new());
     let semantics = Checked { dictionary, initial: State::new(), alphabet };
@@ -256,23 +261,23 @@ impl Cast {
         Self { dictionary: Dictionary::open(), vertices: BTreeMap::new(), copies: BTreeMap::new(), first }
     }
 
-    /// What each replica starts with: the first has made its calls, and all but a joiner have heard of them.
-    fn set_up(&mut self, setup: &Setup) -> Vec<State> {
-        let mut made = State::new();
+    /// What each replica starts with: the first has made its calls, and all but a joiner have heard of them. With
+    /// the mutations that these are.
+    fn set_up(&mut self, setup: &Setup) -> (Vec<State>, Vec<Mutation>) {
+        let (mut made, mut mutations) = (State::new(), Vec::new());
         for operation in &setup.before {
             let author = Author::new(replica_id(self.first));
             let before = made.clone();
             let seen = view(&before, &self.dictionary);
-            let mutation = self.mutation(&seen, 0, operation);
-            let Some(delta) = mutation.and_then(|mutation| mutation.delta(&seen, author).ok()) else {
-                continue;
-            };
+            let Some(mutation) = self.mutation(&seen, 0, operation) else { continue };
+            let Ok(delta) = mutation.delta(&seen, author) else { continue };
             self.note(&before, author, operation);
             made.join(&delta);
+            mutations.push(mutation);
         }
         let joiner = setup.powers.joiner.as_ref().map(|joiner| joiner.replica);
         let state = |at| if Some(at) == joiner { State::new() } else { made.clone() };
-        (0..setup.replicas()).map(state).collect()
+        ((0..setup.replicas()).map(state).collect(), mutations)
     }
 
     /// Remembers which vertex a call makes.

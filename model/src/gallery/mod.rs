@@ -22,7 +22,7 @@ mod record;
 mod registers;
 mod run;
 
-pub use checked::{Twin, run_checked};
+pub use checked::{Twin, mutations_before, run_checked};
 pub use record::{PublishedRun, SEMANTICS, is_published};
 pub use run::{ControlReport, Found, RowReport, run_control, run_row};
 
