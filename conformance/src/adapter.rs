@@ -6,7 +6,7 @@ use crate::protocol::{
     Restart, Shown, StateShown,
 };
 
-pub use crate::core_adapter::Core;
+pub use crate::core_adapter::{Core, CoreAdapter, Engine, Plain, Refusal};
 
 /// An implementation that can be asked. `[spec: CONF-4]`
 ///

@@ -1,5 +1,6 @@
-//! The core as an adapter.
+//! The core as an adapter, and whatever differs from it in an [`Engine`].
 
+mod engine;
 mod handles;
 mod outside;
 mod shown;
@@ -12,18 +13,21 @@ use crate::protocol::{
     StateShown,
 };
 use dsr_core::{
-    Author, DecodeError, Delta, Dictionary, ReplicaId, State, decode, decode_digest, delta_for, digest,
-    encode, encode_digest, fingerprint, view,
+    Author, DecodeError, Delta, Dictionary, Shows, State, decode, decode_digest, delta_for, digest, encode,
+    encode_digest, fingerprint, view,
 };
+pub use engine::{Engine, Plain, Refusal};
 pub(crate) use handles::Handles;
 pub(crate) use shown::shown;
 use std::collections::BTreeMap;
 
-const REPLICAS_MAX: usize = 64;
-
 /// The reference core, `dsr-core`, as an adapter with every feature and profile. `[spec: CONF-4]`
+pub type Core = CoreAdapter<Plain>;
+
+/// An engine as an adapter: the states are those of the core, what becomes of them is the engine's matter.
 #[derive(Debug, Default)]
-pub struct Core {
+pub struct CoreAdapter<E> {
+    engine: E,
     dictionary: Dictionary,
     replicas: BTreeMap<ReplicaName, Replica>,
     handles: Handles,
@@ -32,7 +36,9 @@ pub struct Core {
 
 #[derive(Debug)]
 struct Replica {
-    id: ReplicaId,
+    /// Its place in the case, counted from 0.
+    place: u32,
+    incarnation: u32,
     state: State,
 }
 
@@ -56,7 +62,18 @@ fn undecodable(error: &DecodeError) -> Decline {
     refused(error.to_string(), kind)
 }
 
-impl Core {
+impl<E: Engine> CoreAdapter<E> {
+    /// An adapter of this engine.
+    pub fn of(engine: E) -> Self {
+        Self {
+            engine,
+            dictionary: Dictionary::default(),
+            replicas: BTreeMap::new(),
+            handles: Handles::default(),
+            deltas: Vec::new(),
+        }
+    }
+
     fn replica(&mut self, name: &str) -> Result<&mut Replica, Decline> {
         self.replicas.get_mut(name).ok_or_else(|| no_replica(name))
     }
@@ -75,14 +92,14 @@ impl Core {
     }
 }
 
-/// The delta that [`Core::keep`] has named so.
+/// The delta that [`CoreAdapter::keep`] has named so.
 fn kept<'d>(deltas: &'d [Delta], name: &str) -> Result<&'d Delta, Decline> {
     let number = name.strip_prefix('d').and_then(|number| number.parse::<usize>().ok());
     let found = number.and_then(|number| deltas.get(number.checked_sub(1)?));
     found.ok_or_else(|| Decline::error(ErrorCode::Unknown, format!("no delta {name:?} in this case")))
 }
 
-impl Adapter for Core {
+impl<E: Engine> Adapter for CoreAdapter<E> {
     fn hello(&mut self, hello: &Hello) -> Result<HelloReply, Decline> {
         if !hello.protocols.contains(&PROTOCOL) {
             let message =
@@ -92,25 +109,28 @@ impl Adapter for Core {
         Ok(HelloReply {
             protocol: PROTOCOL,
             implementation: Implementation {
-                name: "dsr-core".into(),
+                name: self.engine.name(),
                 version: env!("CARGO_PKG_VERSION").into(),
                 language: "Rust".into(),
                 source: "crdt-core".into(),
             },
             profiles: Profile::ALL.iter().map(|profile| profile.name().into()).collect(),
             features: Feature::ALL.iter().map(|feature| feature.name().into()).collect(),
-            limits: Limits { line_bytes: LINE_BYTES_MAX, replicas: REPLICAS_MAX },
+            limits: Limits { line_bytes: LINE_BYTES_MAX, replicas: E::REPLICAS_MAX },
         })
     }
 
     fn begin(&mut self, case: &CaseBegin) -> Result<(), Decline> {
-        *self = Self { dictionary: case.dictionary.clone().unwrap_or_default(), ..Self::default() };
-        if case.replicas.len() > REPLICAS_MAX {
-            let message = format!("{} replicas; the limit is {REPLICAS_MAX}", case.replicas.len());
+        self.dictionary = case.dictionary.clone().unwrap_or_default();
+        self.replicas.clear();
+        self.handles = Handles::default();
+        self.deltas.clear();
+        if case.replicas.len() > E::REPLICAS_MAX {
+            let message = format!("{} replicas; the limit is {}", case.replicas.len(), E::REPLICAS_MAX);
             return Err(Decline::error(ErrorCode::RejectedInput, message));
         }
-        for (name, agent) in case.replicas.iter().zip(1..) {
-            let replica = Replica { id: ReplicaId::agent(agent), state: State::new() };
+        for (name, place) in case.replicas.iter().zip(0..) {
+            let replica = Replica { place, incarnation: 0, state: State::new() };
             if self.replicas.insert(name.clone(), replica).is_some() {
                 return Err(Decline::error(ErrorCode::RejectedInput, format!("two replicas {name:?}")));
             }
@@ -119,17 +139,18 @@ impl Adapter for Core {
     }
 
     fn mutate(&mut self, mutate: &Mutate) -> Result<MadeDelta, Decline> {
-        let replica = self.replica(&mutate.replica)?;
-        let (author, mut state) = (Author::new(replica.id), replica.state.clone());
+        let replica = self.replicas.get(&mutate.replica).ok_or_else(|| no_replica(&mutate.replica))?;
+        let id = self.engine.identity(replica.place, replica.incarnation);
+        let (author, mut state) = (Author::new(id), replica.state.clone());
         let mut handles = self.handles.clone();
         let mut whole = Delta::new();
         for mutation in &mutate.mutations {
-            let shown = view(&state, &self.dictionary);
-            let resolved = handles.resolve(mutation, &shown, author.replica)?;
-            let made = resolved.delta(&shown, author);
-            let delta = made.map_err(|error| refused(error.to_string(), Some(error.kind())))?;
-            state.join(&delta);
-            whole.join(&delta);
+            let seen = view(&state, &self.dictionary);
+            let resolved = handles.resolve(mutation, &seen, author.replica)?;
+            let made = self.engine.mutate(&seen, author, &resolved);
+            let (delta, after) = made.map_err(|refusal| refused(refusal.message, refusal.kind))?;
+            state = after;
+            self.engine.join(&mut whole, &delta);
         }
         self.handles = handles;
         self.replica(&mutate.replica)?.state = state;
@@ -139,32 +160,38 @@ impl Adapter for Core {
     fn deliver(&mut self, deliver: &Deliver) -> Result<(), Decline> {
         let delta = kept(&self.deltas, &deliver.delta)?;
         let replica = self.replicas.get_mut(&deliver.replica);
-        replica.ok_or_else(|| no_replica(&deliver.replica))?.state.join(delta);
+        let replica = replica.ok_or_else(|| no_replica(&deliver.replica))?;
+        self.engine.join(&mut replica.state, delta);
         Ok(())
     }
 
     fn read(&mut self, read: &Read) -> Result<Shown, Decline> {
-        let view = view(self.state_of(&read.replica)?, &self.dictionary);
-        Ok(Shown { view: shown(&view, &self.handles) })
+        let replica = self.replicas.get(&read.replica).ok_or_else(|| no_replica(&read.replica))?;
+        let view = view(&replica.state, &self.dictionary);
+        let view = self.engine.show(&view, replica.place, &mut |shows| shown(shows, &self.handles));
+        Ok(Shown { view })
     }
 
     fn group(&mut self, group: &Group) -> Result<MadeDelta, Decline> {
         let mut whole = Delta::new();
         for delta in &group.deltas {
-            whole.join(self.kept(delta)?);
+            self.engine.join(&mut whole, self.kept(delta)?);
         }
         Ok(self.keep(whole))
     }
 
     fn lookup(&mut self, lookup: &Lookup) -> Result<Found, Decline> {
-        let view = view(self.state_of(&lookup.replica)?, &self.dictionary);
-        Ok(Found { vertex: view.vertex_by_name(&lookup.name).map(|id| self.handles.name(id)) })
+        let replica = self.replicas.get(&lookup.replica).ok_or_else(|| no_replica(&lookup.replica))?;
+        let view = view(&replica.state, &self.dictionary);
+        let find = &mut |shows: &dyn Shows| shows.vertex_by_name(&lookup.name);
+        let vertex = self.engine.show(&view, replica.place, find);
+        Ok(Found { vertex: vertex.map(|id| self.handles.name(id)) })
     }
 
     fn restart(&mut self, restart: &Restart) -> Result<(), Decline> {
         let replica = self.replica(&restart.replica)?;
-        let none = || refused(format!("{} has used up its incarnations", replica.id), None);
-        replica.id = replica.id.next_incarnation().ok_or_else(none)?;
+        let none = || refused(format!("{:?} has used up its incarnations", restart.replica), None);
+        replica.incarnation = replica.incarnation.checked_add(1).ok_or_else(none)?;
         if !restart.keeps {
             replica.state = State::new();
         }
@@ -172,8 +199,8 @@ impl Adapter for Core {
     }
 
     fn resynchronise(&mut self, answer: &AnswerFor) -> Result<MadeDelta, Decline> {
-        let theirs = digest(self.state_of(&answer.to)?);
-        let delta = delta_for(self.state_of(&answer.from)?, &theirs);
+        let (ours, theirs) = (self.state_of(&answer.from)?, self.state_of(&answer.to)?);
+        let delta = self.engine.answer(ours, theirs);
         Ok(self.keep(delta))
     }
 

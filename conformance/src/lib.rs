@@ -13,6 +13,7 @@
 //! | [`run`] | a case against an adapter, in-process or as a child process |
 //! | [`report`] | verdicts, counted |
 //! | [`templates`] | adapters to start from, in other languages |
+//! | [`score`] | cores broken on purpose, and which cases find them |
 //! | [`generate`] | cases that are computed from what the checker has found |
 
 #![forbid(unsafe_code)]
@@ -25,5 +26,6 @@ pub mod generate;
 pub mod protocol;
 pub mod report;
 pub mod run;
+pub mod score;
 pub mod serve;
 pub mod templates;

@@ -39,6 +39,16 @@ pub struct Alarm {
 }
 
 impl Alarm {
+    /// What is done wrongly.
+    pub fn flaw(&self) -> &dyn Flaw {
+        &*self.flaw
+    }
+
+    /// Whether the search is broken, and the core is sound.
+    pub fn is_of_the_search(&self) -> bool {
+        self.clause == "CHECK-11"
+    }
+
     /// The core broken so.
     pub fn on(&self, core: Checked) -> Broken {
         Broken::new(self.name, core, self.flaw.clone())

@@ -1,0 +1,19 @@
+//! The corpus finds every core that the checker has broken on purpose.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on says where")]
+
+use dsr_conformance::corpus;
+use dsr_conformance::score::score;
+
+/// `[spec: CONF-13]`
+#[test]
+fn canary_each_broken_core_fails_a_case() {
+    let scores = score(&corpus::cases().unwrap());
+    for core in &scores.cores {
+        let shortest = core.shortest.as_deref().unwrap_or("missed");
+        println!("{:<26} {:<8} {:>4} {shortest}", core.flaw, core.clause, core.failed);
+    }
+    println!("{} of {} found", scores.found, scores.cores.len());
+    assert_eq!(scores.cores.len(), 31);
+    assert!(scores.is_full(), "{scores:#?}");
+}
