@@ -1,6 +1,7 @@
 //! `dsr conform`: the corpus of conformance cases, against any adapter.
 
 mod new_adapter;
+mod score;
 
 use crate::output::{add, err, out};
 use crate::status::Status;
@@ -63,6 +64,11 @@ enum Command {
     },
     /// Writes an adapter to start from, with a small implementation inside
     NewAdapter(new_adapter::Arguments),
+    /// Runs cores broken on purpose: which case finds which
+    Score {
+        #[command(flatten)]
+        printed: Printed,
+    },
     /// Is an adapter of this program's core, on standard input and output
     Adapter,
 }
@@ -117,6 +123,7 @@ impl Arguments {
             }
             Some(Command::List { choice }) => choice.cases().map(|cases| list(&cases)),
             Some(Command::NewAdapter(arguments)) => return arguments.run(),
+            Some(Command::Score { printed }) => score::run(matches!(printed.format, Format::Json)),
             Some(Command::Adapter) => return adapter(),
         };
         ended.unwrap_or_else(|error| {
