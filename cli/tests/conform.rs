@@ -69,3 +69,16 @@ fn law_the_adapter_answers_line_by_line_and_ends_with_its_input() {
     assert_eq!((garbage.status, garbage.out.as_str()), (3, ""));
     assert!(garbage.err.contains("line 1 is no request"), "{garbage:?}");
 }
+
+/// `[spec: CONF-13]`
+#[test]
+fn conform_the_score_is_full_and_both_forms_say_so() {
+    let run = dsr(&["conform", "score"]);
+    assert_eq!(run.status, 0, "{run:?}");
+    assert!(run.out.lines().last().unwrap().starts_with("31 of 31 found by "), "{run:?}");
+    assert!(run.out.ends_with(": 100 %\n"), "{run:?}");
+    let run = dsr(&["conform", "score", "--format", "json"]);
+    let scores: serde_json::Value = serde_json::from_str(&run.out).unwrap();
+    assert_eq!((run.status, &scores["found"]), (0, &serde_json::json!(31)));
+    assert_eq!(scores["cores"].as_array().unwrap().len(), 31);
+}
