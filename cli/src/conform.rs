@@ -182,7 +182,7 @@ fn text(report: &Report, whom: &str) -> String {
         if result.failure.step > 0 {
             add(&mut text, format_args!("    step {}\n", result.failure.step));
         }
-        for line in result.failure.what.lines() {
+        for line in result.failure.to_string().lines() {
             add(&mut text, format_args!("    {}\n", safe(line)));
         }
     }

@@ -14,6 +14,9 @@
 //! | [`report`] | verdicts, counted |
 //! | [`templates`] | adapters to start from, in other languages |
 //! | [`generate`] | cases that are computed from what the checker has found |
+//! | [`log`] | a run, line by line; its strict reader; two of them compared |
+//! | [`expect`] | failures that are expected, with their reasons |
+//! | [`render`] | diagrams of cases, failures, reports |
 
 #![forbid(unsafe_code)]
 
@@ -22,7 +25,10 @@ pub mod case;
 mod core_adapter;
 pub mod corpus;
 pub mod generate;
+pub mod expect;
+pub mod log;
 pub mod protocol;
+pub mod render;
 pub mod report;
 pub mod run;
 pub mod serve;
