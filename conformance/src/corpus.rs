@@ -1,10 +1,8 @@
 //! The cases that ship, in `conformance/corpus/v1`.
 
-mod canonical;
 mod manifest;
 mod validate;
 
-pub use canonical::canonical;
 pub use manifest::{Known, known_ids, listed_ids, manifest};
 pub use validate::{CorpusFault, faults, faults_of_file};
 

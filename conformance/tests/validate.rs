@@ -2,8 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on says where")]
 
-use dsr_conformance::case::read;
-use dsr_conformance::corpus::{self, canonical, faults, known_ids, listed_ids, similar};
+use dsr_conformance::case::{read, write as canonical};
+use dsr_conformance::corpus::{self, faults, known_ids, listed_ids, similar};
 
 /// `[spec: CONF-15]`
 #[test]

@@ -3,10 +3,8 @@
 use super::error::{ConformError, read_text, write};
 use crate::output::{err, out};
 use crate::status::Status;
-use dsr_conformance::case::{CaseFile, read};
-use dsr_conformance::corpus::{
-    self, CorpusFault, canonical, faults, faults_of_file, known_ids, listed_ids, manifest,
-};
+use dsr_conformance::case::{CaseFile, read, write as canonical};
+use dsr_conformance::corpus::{self, CorpusFault, faults, faults_of_file, known_ids, listed_ids, manifest};
 use std::path::{Path, PathBuf};
 
 const AFTER: &str = "\

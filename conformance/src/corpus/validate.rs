@@ -1,7 +1,7 @@
 //! Whether a corpus is in order. `[spec: CONF-15]`
 
-use super::{canonical, known_ids, manifest};
-use crate::case::{CaseFile, read};
+use super::{known_ids, manifest};
+use crate::case::{CaseFile, read, write};
 use dsr_spec::{Clauses, chapters, collect_clauses};
 use std::collections::BTreeMap;
 
@@ -45,7 +45,7 @@ fn faults_with(path: &str, text: &str, clauses: &Clauses) -> (Option<CaseFile>, 
             }
         }
     }
-    match canonical(&file) {
+    match write(&file) {
         Ok(due) if due == text => {}
         Ok(due) => {
             let same = due.lines().zip(text.lines()).take_while(|(due, found)| due == found).count();
