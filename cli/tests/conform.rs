@@ -6,19 +6,23 @@ use common::{dsr, dsr_with};
 
 const DSR: &str = env!("CARGO_BIN_EXE_dsr");
 
-/// `[spec: CONF-10]`
+/// `[spec: CONF-10]` `[spec: CONF-18]`
 #[test]
 fn law_the_core_passes_in_both_ways() {
     let run = dsr(&["conform", "--format", "json"]);
     assert_eq!((run.status, run.err.as_str()), (0, ""), "{run:?}");
-    let summaries: Vec<serde_json::Value> =
-        run.out.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
-    assert_eq!(summaries.len(), 2);
-    assert_eq!(summaries[0], summaries[1]);
-    assert_eq!(summaries[0]["verdict"], "expected");
-    assert_eq!(summaries[0]["implementation"]["name"], "dsr-core");
+    assert_eq!(run.out.lines().count(), 1);
+    let summary: serde_json::Value = serde_json::from_str(&run.out).unwrap();
+    for key in ["verdict", "protocol", "corpus", "spec", "implementation", "counts", "families"] {
+        assert!(!summary[key].is_null(), "{key}: {run:?}");
+    }
+    assert_eq!(summary["verdict"], "expected");
+    assert_eq!(summary["implementation"]["name"], "dsr-core");
+    let runs = summary["runs"].as_array().unwrap();
+    assert_eq!([&runs[0]["transport"], &runs[1]["transport"]], ["in-process", "stdio"]);
+    assert_eq!([&runs[0]["counts"], &runs[1]["counts"]], [&summary["counts"], &summary["counts"]]);
     let listed = dsr(&["conform", "list"]).out.lines().count();
-    assert_eq!(summaries[0]["counts"]["pass"], listed);
+    assert_eq!(summary["counts"]["pass"], listed);
 }
 
 #[test]
@@ -37,6 +41,7 @@ fn canary_what_is_no_adapter_fails_with_its_verdict() {
     let run = dsr(&["conform", "run", "--", DSR, "--version"]);
     assert_eq!(run.status, 1, "{run:?}");
     assert!(run.out.starts_with("protocol_error "), "{run:?}");
+    assert!(run.out.contains("\n  replay: dsr conform replay "), "{run:?}");
     assert!(run.out.contains("it never said what it is): 3 protocol_error, "), "{run:?}");
     assert!(run.out.ends_with(" not run\n"), "{run:?}");
     assert_eq!(dsr(&["conform", "run"]).status, 3);
@@ -70,7 +75,7 @@ fn law_the_adapter_answers_line_by_line_and_ends_with_its_input() {
     assert!(garbage.err.contains("line 1 is no request"), "{garbage:?}");
 }
 
-/// `[spec: CONF-13]`
+/// `[spec: CONF-19]`
 #[test]
 fn conform_the_score_is_full_and_both_forms_say_so() {
     let run = dsr(&["conform", "score"]);

@@ -23,6 +23,16 @@ pub(super) fn chatter(input: impl BufRead) -> ExitCode {
     if served.is_ok() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
+/// Shakes hands, and never reads again.
+pub(super) fn deaf(mut input: impl BufRead) -> ExitCode {
+    let mut line = String::new();
+    if input.read_line(&mut line).is_err() {
+        return ExitCode::FAILURE;
+    }
+    let served = serve(&mut Core::default(), line.as_bytes(), io::stdout());
+    if served.is_ok() { hang() } else { ExitCode::FAILURE }
+}
+
 /// A line without an end.
 pub(super) fn endless(mut output: impl Write) -> ExitCode {
     while output.write_all(&[b' '; 4096]).is_ok() {}
@@ -67,6 +77,28 @@ impl<W: Write> Write for Mangling<W> {
                 std::process::exit(0);
             }
             "deep" => writeln!(self.output, "{{\"id\": 3, \"ok\": {}", "[".repeat(100_000))?,
+            "bomb" => {
+                let (open, close) = ("[".repeat(100_000), "]".repeat(100_000));
+                writeln!(self.output, "{{\"id\": {}, \"ok\": {open}{close}}}", self.request)?;
+            }
+            "nul" => self.output.write_all(b"{\"id\": 3, \"ok\": {\0\0}}\n")?,
+            "padded" => {
+                // A whole line of the most bytes that there may be.
+                self.output.write_all(bytes)?;
+                io::copy(&mut io::repeat(b' ').take((1 << 20) - bytes.len() as u64), &mut self.output)?;
+                self.output.write_all(b"\n")?;
+            }
+            "one-behind" => {
+                let reply = Reply::new(self.request + 1, Ok(Done {}));
+                writeln!(self.output, "{}", serde_json::to_string(&reply)?)?;
+                self.output.write_all(bytes)?;
+                self.output.write_all(b"\n")?;
+            }
+            "grandchild" => {
+                // Whoever inherits standard output keeps it open after this one has ended.
+                std::process::Command::new("sleep").arg("20").spawn()?;
+                std::process::exit(101);
+            }
             "twice" => {
                 self.output.write_all(bytes)?;
                 self.output.write_all(b"\n")?;

@@ -1,6 +1,7 @@
 //! Adapters broken on purpose. The first argument says how.
 
 mod lines;
+mod more;
 
 use dsr_conformance::adapter::{Adapter, Core};
 use dsr_conformance::protocol::{
@@ -9,10 +10,12 @@ use dsr_conformance::protocol::{
     Read, Restart, Shown, StateShown,
 };
 use dsr_conformance::serve::serve;
-use lines::{Mangling, chatter, endless, hang};
+use lines::{Mangling, chatter, deaf, endless, hang};
+use more::{Contextless, Slow, Unordered};
 use std::collections::BTreeSet;
 use std::io;
 use std::process::ExitCode;
+use std::time::Duration;
 
 fn main() -> ExitCode {
     let how = std::env::args().nth(1).unwrap_or_default();
@@ -32,6 +35,11 @@ fn main() -> ExitCode {
         "few-replicas" => serve(&mut Small(core, Limits { line_bytes: 1 << 20, replicas: 2 }), input, output),
         "short-lines" => serve(&mut Small(core, Limits { line_bytes: 300, replicas: 9 }), input, output),
         "liar" => serve(&mut Liar(core), input, output),
+        "contextless" => serve(&mut Contextless(core), input, output),
+        "unordered" => serve(&mut Unordered(core, 0), input, output),
+        "slow" => serve(&mut Slow(core, Duration::from_millis(300)), input, output),
+        "too-slow" => serve(&mut Slow(core, Duration::from_secs(600)), input, output),
+        "deaf" => return deaf(input),
         "errs" => serve(&mut Errs(core), input, output),
         "modest" => serve(&mut Modest(core), input, output),
         _ => serve(&mut { core }, input, Mangling { how, output, doomed: false, request: 0 }),

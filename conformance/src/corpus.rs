@@ -1,6 +1,13 @@
 //! The cases that ship, in `conformance/corpus/v1`.
 
+mod manifest;
+mod validate;
+
+pub use manifest::{Known, known_ids, listed_ids, manifest};
+pub use validate::{CorpusFault, faults, faults_of_file};
+
 use crate::case::{Case, CaseError, read};
+use crate::protocol::Profile;
 
 /// The version of the corpus. New cases raise the second number, a changed expectation the first.
 pub const VERSION: &str = "1.0.0";
@@ -14,6 +21,78 @@ pub const FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/files.rs"
 pub fn cases() -> Result<Vec<Case>, CaseError> {
     let files = FILES.iter().map(|(path, text)| read(path, text));
     Ok(files.collect::<Result<Vec<_>, _>>()?.into_iter().flat_map(|file| file.cases).collect())
+}
+
+/// The cases for a first look: their ids, in the order in which to ask them.
+pub const SMOKE: &str = include_str!("../corpus/smoke.json");
+/// Every id that a case ever had.
+pub const IDS: &str = include_str!("../corpus/ids.txt");
+/// What the corpus consists of.
+pub const MANIFEST: &str = include_str!("../corpus/MANIFEST.json");
+
+/// The ids of the cases for a first look.
+pub fn smoke() -> Result<Vec<String>, serde_json::Error> {
+    #[derive(serde::Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Smoke {
+        #[serde(rename = "format")]
+        _format: u32,
+        cases: Vec<String>,
+    }
+
+    serde_json::from_str::<Smoke>(SMOKE).map(|smoke| smoke.cases)
+}
+
+/// Which cases of the corpus to run.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Filter {
+    /// A pattern of ids.
+    pub only: String,
+    /// The deepest profile; `None` is every one.
+    pub profile: Option<Profile>,
+    /// A clause that the cases cite; `None` is every one.
+    pub clause: Option<String>,
+}
+
+impl Filter {
+    /// Whether a case is chosen.
+    pub fn takes(&self, case: &Case) -> bool {
+        matches(&self.only, &case.id)
+            && self.profile.is_none_or(|deepest| case.profile <= deepest)
+            && self.clause.as_ref().is_none_or(|clause| case.spec.contains(clause))
+    }
+}
+
+/// The ids that are most like a text that is none, at most three.
+pub fn similar<'i>(wanted: &str, ids: impl IntoIterator<Item = &'i str>) -> Vec<&'i str> {
+    let mut ranked: Vec<(usize, &str)> = ids
+        .into_iter()
+        .map(|id| {
+            let slug = id.rsplit('/').next().unwrap_or(id);
+            let within =
+                if id.contains(wanted) { 0 } else { distance(wanted, id).min(distance(wanted, slug)) };
+            (within, id)
+        })
+        .filter(|&(distance, _)| distance <= 3.max(wanted.chars().count() / 3))
+        .collect();
+    ranked.sort_unstable();
+    ranked.into_iter().take(3).map(|(_, id)| id).collect()
+}
+
+/// How many characters must be changed, added or left out. O(one · other).
+fn distance(one: &str, other: &str) -> usize {
+    let other: Vec<char> = other.chars().collect();
+    let mut row: Vec<usize> = (0..=other.len()).collect();
+    for (at, character) in one.chars().enumerate() {
+        let mut before = row[0];
+        row[0] = at + 1;
+        for (column, &with) in other.iter().enumerate() {
+            let changed = before + usize::from(character != with);
+            before = row[column + 1];
+            row[column + 1] = changed.min(row[column] + 1).min(before + 1);
+        }
+    }
+    row.last().copied().unwrap_or_default()
 }
 
 /// Whether an id matches a pattern, in which `*` stands for any characters.

@@ -15,6 +15,9 @@
 //! | [`templates`] | adapters to start from, in other languages |
 //! | [`score`] | cores broken on purpose, and which cases find them |
 //! | [`generate`] | cases that are computed from what the checker has found |
+//! | [`log`] | a run, line by line; its strict reader; two of them compared |
+//! | [`expect`] | failures that are expected, with their reasons |
+//! | [`render`] | diagrams of cases, failures, reports |
 
 #![forbid(unsafe_code)]
 
@@ -22,8 +25,11 @@ pub mod adapter;
 pub mod case;
 mod core_adapter;
 pub mod corpus;
+pub mod expect;
 pub mod generate;
+pub mod log;
 pub mod protocol;
+pub mod render;
 pub mod report;
 pub mod run;
 pub mod score;

@@ -5,11 +5,12 @@ use crate::corpus;
 use crate::protocol::{Implementation, PROTOCOL};
 use crate::run::Failure;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::time::Duration;
 
 /// What comes of a case.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// Everything is as expected.
@@ -76,16 +77,20 @@ pub struct CaseResult {
     pub verdict: Verdict,
     /// Why, unless it passed.
     pub failure: Failure,
+    /// How long it took.
+    pub milliseconds: u64,
 }
 
 impl CaseResult {
-    pub(crate) fn of(case: &Case, verdict: Verdict, failure: Failure) -> Self {
-        Self { id: case.id.clone(), level: case.level, spec: case.spec.clone(), verdict, failure }
+    pub(crate) fn of(case: &Case, verdict: Verdict, failure: Failure, took: Duration) -> Self {
+        let milliseconds = u64::try_from(took.as_millis()).unwrap_or(u64::MAX);
+        let (id, level, spec) = (case.id.clone(), case.level, case.spec.clone());
+        Self { id, level, spec, verdict, failure, milliseconds }
     }
 }
 
 /// How a run ends.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
     /// Some case passed, none was left out unannounced, and none that is a MUST is bad. Exit status 0.
@@ -125,6 +130,51 @@ pub struct Summary {
     pub counts: BTreeMap<&'static str, usize>,
     /// The same by family, verdicts that occur.
     pub families: BTreeMap<String, BTreeMap<&'static str, usize>>,
+    /// The single runs, where there is more than one. `[spec: CONF-18]`
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub runs: Vec<SingleRun>,
+}
+
+/// One of several runs of the same cases.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SingleRun {
+    /// How the adapter was asked: `in-process` or `stdio`.
+    pub transport: &'static str,
+    /// How the run ended.
+    pub verdict: Outcome,
+    /// How many cases have each verdict.
+    pub counts: BTreeMap<&'static str, usize>,
+    /// The same by family.
+    pub families: BTreeMap<String, BTreeMap<&'static str, usize>>,
+}
+
+impl Summary {
+    /// Runs of the same cases in one summary: the worst verdict, and the counts of the first run with it. Runs that differ
+    /// in their counts are unexpected. `None` if there is no run. `[spec: CONF-18]`
+    pub fn together(runs: Vec<(&'static str, Self)>) -> Option<Self> {
+        let worst = runs.iter().max_by_key(|(_, run)| std::cmp::Reverse(run.verdict.rank()))?.1.clone();
+        let differ = runs.iter().any(|(_, run)| run.counts != worst.counts || run.families != worst.families);
+        let verdict = if differ { Outcome::Unexpected } else { worst.verdict };
+        let runs = runs.into_iter().map(|(transport, run)| SingleRun {
+            transport,
+            verdict: run.verdict,
+            counts: run.counts,
+            families: run.families,
+        });
+        Some(Self { verdict, runs: runs.collect(), ..worst })
+    }
+}
+
+impl Outcome {
+    /// What is worst first: something definite is wrong, something is unknown, neither.
+    const fn rank(self) -> u8 {
+        match self {
+            Self::Unexpected => 0,
+            Self::Incomplete => 1,
+            Self::Expected => 2,
+        }
+    }
 }
 
 impl Report {
@@ -143,11 +193,16 @@ impl Report {
 
     /// How the run ended.
     pub fn outcome(&self) -> Outcome {
-        let is_bad = |result: &CaseResult| result.level == Level::Must && result.verdict.is_bad();
-        if self.results.iter().any(is_bad) {
+        self.outcome_but(&|_| false)
+    }
+
+    /// How the run ended, if what is excused counts as expected. `[spec: CONF-10]`
+    pub fn outcome_but(&self, is_excused: &dyn Fn(&CaseResult) -> bool) -> Outcome {
+        let counted = || self.results.iter().filter(|result| !is_excused(result));
+        if counted().any(|result| result.level == Level::Must && result.verdict.is_bad()) {
             Outcome::Unexpected
         } else if self.results.len() < self.wanted
-            || self.count(Verdict::Skip) > 0
+            || counted().any(|result| result.verdict == Verdict::Skip)
             || self.count(Verdict::Pass) == 0
         {
             Outcome::Incomplete
@@ -174,6 +229,7 @@ impl Report {
             implementation: self.implementation.clone(),
             counts,
             families,
+            runs: Vec::new(),
         }
     }
 }

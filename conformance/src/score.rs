@@ -1,4 +1,4 @@
-//! How many of the checker's broken cores the corpus finds. `[spec: CONF-13]`
+//! How many of the checker's broken cores the corpus finds. `[spec: CONF-19]`
 //!
 //! A corpus that fails nobody proves nothing. The checker has cores broken on purpose, one flaw each; each of them is
 //! run as an implementation would be, and must fail a case.

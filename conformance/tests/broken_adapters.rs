@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on says where")]
 
-use dsr_conformance::case::{Case, Level};
+use dsr_conformance::case::{Case, Level, Step};
 use dsr_conformance::corpus;
 use dsr_conformance::report::{Outcome, Report, Verdict};
 use dsr_conformance::run::{ChildLimits, Program, hello, run};
@@ -10,7 +10,8 @@ use std::time::{Duration, Instant};
 
 fn program(arguments: &[&str]) -> Program {
     let command = std::iter::once(env!("CARGO_BIN_EXE_conform-broken")).chain(arguments.iter().copied());
-    let hangs = matches!(arguments, ["hangs", ..] | ["silent"]);
+    let hangs =
+        matches!(arguments, ["hangs" | "deaf" | "too-slow" | "grandchild" | "closes", ..] | ["silent"]);
     let limits =
         ChildLimits { reply: Duration::from_secs(if hangs { 3 } else { 60 }), ..ChildLimits::default() };
     Program { command: command.map(String::from).collect(), limits }
@@ -57,6 +58,9 @@ fn canary_what_is_no_reply_is_a_protocol_error() {
     breaks("neither", Verdict::ProtocolError, "not exactly one of");
     breaks("too-long", Verdict::ProtocolError, "more than 1048576 bytes");
     breaks("twice", Verdict::ProtocolError, "");
+    breaks("bomb", Verdict::ProtocolError, "no reply: ");
+    breaks("nul", Verdict::ProtocolError, "no reply: ");
+    breaks("one-behind", Verdict::ProtocolError, "request 3 is answered with id 4");
 }
 
 /// `[spec: CONF-9]` `[spec: CONF-12]`
@@ -201,13 +205,81 @@ fn canary_an_empty_answer_fails_where_something_was_lost() {
 /// `[spec: CONF-9]`
 #[test]
 fn canary_a_forgotten_removal_fails_where_removals_travel() {
-    let report = run(&mut program(&["forgets-removals"]), &cases(&["universal/*"]));
+    let report = run(
+        &mut program(&["forgets-removals"]),
+        &cases(&["universal/convergence/*", "universal/delivery/*"]),
+    );
     let expected = [
         "universal/convergence/removal-and-update",
         "universal/delivery/removal-first",
         "universal/delivery/late-write",
     ];
     assert_eq!(failures(&report), expected);
+}
+
+/// `[spec: CONF-1]` `[spec: CONF-12]`
+#[test]
+fn law_the_longest_line_is_a_line() {
+    let report = run(&mut program(&["padded", "3"]), &two());
+    verdicts(&report, &[("add-edge", Verdict::Pass), ("remove-edge", Verdict::Pass)]);
+}
+
+/// `[spec: CONF-7]`
+#[test]
+fn law_the_order_of_lists_means_nothing() {
+    let report = run(&mut program(&["unordered"]), &cases(&["universal/mutations/*", "resolution/*"]));
+    let left_out = report.count(Verdict::Unsupported);
+    assert_eq!(report.count(Verdict::Pass) + left_out, report.results.len(), "{report:#?}");
+    assert!(report.count(Verdict::Pass) > 20);
+}
+
+/// `[spec: CONF-9]`
+#[test]
+fn canary_a_join_without_contexts_fails_where_removals_travel() {
+    let report = run(&mut program(&["contextless"]), &cases(&["universal/delivery/*"]));
+    assert!(report.count(Verdict::Fail) > 0, "{report:#?}");
+    assert_eq!(
+        report.count(Verdict::Pass) + report.count(Verdict::Fail) + report.count(Verdict::Unsupported),
+        report.results.len()
+    );
+    let late = report.results.iter().find(|result| result.id == "universal/delivery/removal-first").unwrap();
+    assert_eq!(late.verdict, Verdict::Fail, "{report:#?}");
+}
+
+/// `[spec: CONF-9]` `[spec: CONF-12]`
+#[test]
+fn canary_slow_is_no_fault_and_too_slow_is_a_timeout() {
+    verdicts(
+        &run(&mut program(&["slow"]), &two()),
+        &[("add-edge", Verdict::Pass), ("remove-edge", Verdict::Pass)],
+    );
+    let late = run(&mut program(&["too-slow"]), &two());
+    verdicts(&late, &[("add-edge", Verdict::Timeout), ("remove-edge", Verdict::Timeout)]);
+    let what = &late.results[0].failure.what;
+    assert!(what.contains("request: `{\"id\":") && what.contains("read"), "{what}");
+}
+
+/// `[spec: CONF-12]`
+#[test]
+fn canary_who_reads_nothing_or_leaves_a_pipe_open_stops_nobody() {
+    let started = Instant::now();
+    let mut unlimited = program(&["deaf"]);
+    unlimited.limits.reply = Duration::from_secs(2);
+    // Its request is more than a pipe holds.
+    let mut large = two();
+    for case in &mut large {
+        if let Some(Step::Mutate { mutations, .. }) = case.steps.first_mut() {
+            *mutations = mutations.iter().cycle().take(2000).cloned().collect();
+        }
+    }
+    let report = run(&mut unlimited, &large);
+    verdicts(&report, &[("add-edge", Verdict::Timeout), ("remove-edge", Verdict::Timeout)]);
+    let report = run(&mut program(&["grandchild", "3"]), &two());
+    assert!(
+        report.results.iter().all(|result| matches!(result.verdict, Verdict::Timeout | Verdict::Crash)),
+        "{report:#?}"
+    );
+    assert!(started.elapsed() < Duration::from_secs(20), "{:?}", started.elapsed());
 }
 
 fn failures(report: &Report) -> Vec<&str> {

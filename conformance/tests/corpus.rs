@@ -3,6 +3,8 @@
 use dsr_conformance::adapter::Core;
 use dsr_conformance::case::{CaseFile, read};
 use dsr_conformance::corpus;
+use dsr_conformance::expect::Expectations;
+use dsr_conformance::log::Line;
 use dsr_conformance::protocol::{Answer, Reply, Request};
 use dsr_conformance::report::{Outcome, Summary, Verdict};
 use dsr_conformance::run::{InProcess, run};
@@ -63,6 +65,8 @@ fn law_the_schemas_are_those_of_the_types() {
         ("reply", schemars::schema_for!(Reply<Answer>)),
         ("case", schemars::schema_for!(CaseFile)),
         ("summary", schemars::schema_for!(Summary)),
+        ("log", Line::schema()),
+        ("expectations", Expectations::schema()),
     ];
     for (name, schema) in schemas {
         let text = serde_json::to_string_pretty(&schema).unwrap() + "\n";

@@ -5,7 +5,7 @@
 use dsr_conformance::corpus;
 use dsr_conformance::score::score;
 
-/// `[spec: CONF-13]`
+/// `[spec: CONF-19]`
 #[test]
 fn canary_each_broken_core_fails_a_case() {
     let scores = score(&corpus::cases().unwrap());

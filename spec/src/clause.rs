@@ -154,6 +154,14 @@ fn clauses_of(source: &Source, faults: &mut Vec<Fault>) -> Vec<Clause> {
     clauses
 }
 
+/// The id of the clause that a line begins.
+pub(crate) fn head(line: &str) -> Option<ClauseId> {
+    match head_of(line) {
+        Head::Clause(id, _) => Some(id),
+        Head::None | Head::Malformed(_) => None,
+    }
+}
+
 enum Head {
     None,
     Malformed(String),

@@ -12,6 +12,7 @@ mod id;
 mod matrix;
 mod region;
 mod tag;
+mod text;
 mod trace;
 mod workspace;
 
@@ -21,6 +22,7 @@ pub use id::ClauseId;
 pub use matrix::{MATRIX_PATH, matrix};
 pub use region::{TestModules, test_lines};
 pub use tag::{Tag, TagKind, tags_of};
+pub use text::{CHAPTERS, chapters, clause_text};
 pub use trace::{Trace, trace};
 pub use workspace::{Inputs, ReadError, read_inputs};
 

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `dsr conform new-adapter`.
 #[derive(clap::Args, Debug)]
-pub(crate) struct Arguments {
+pub(crate) struct NewAdapter {
     /// In which language
     #[arg(long, value_enum)]
     lang: Language,
@@ -54,7 +54,7 @@ impl Language {
     }
 }
 
-impl Arguments {
+impl NewAdapter {
     pub(crate) fn run(&self) -> Status {
         match self.write() {
             Ok(template) => {

@@ -1,20 +1,34 @@
 //! `dsr conform score`: which case finds which of the checker's broken cores.
 
-use super::ConformError;
+use super::chosen::{Format, Printed};
+use super::error::ConformError;
 use crate::output::{add, out};
 use crate::status::Status;
 use dsr_conformance::corpus;
 use dsr_conformance::score::{Scores, score};
 
-/// Runs every broken core on the whole corpus. `[spec: CONF-13]`
-pub(super) fn run(json: bool) -> Result<Status, ConformError> {
-    let scores = score(&corpus::cases()?);
-    if json {
-        out(&(serde_json::to_string(&scores).map_err(ConformError::Summary)? + "\n"));
-    } else {
-        out(&text(&scores));
+const ABOUT: &str = "\
+Runs the cores that the checker has broken on purpose, one flaw each, on the whole corpus, and shows how many cases each fails and \
+the shortest of these. Exit status: 0 each is found, 1 one is missed.";
+
+/// Runs cores broken on purpose: which case finds which
+#[derive(clap::Args, Debug)]
+#[command(long_about = ABOUT)]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    printed: Printed,
+}
+
+impl Arguments {
+    /// Runs every broken core on the whole corpus. `[spec: CONF-19]`
+    pub(super) fn run(&self) -> Result<Status, ConformError> {
+        let scores = score(&corpus::cases()?);
+        match self.printed.format {
+            Format::Text => out(&text(&scores)),
+            Format::Json => out(&(serde_json::to_string(&scores)? + "\n")),
+        }
+        Ok(if scores.is_full() { Status::Claimed } else { Status::Violated })
     }
-    Ok(if scores.is_full() { Status::Claimed } else { Status::Violated })
 }
 
 fn text(scores: &Scores) -> String {

@@ -11,6 +11,8 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 const LAST_WORDS_BYTES_MAX: usize = 4096;
+/// How long to wait for the end of standard error of a child that has ended: a grandchild may keep it open.
+const LAST_WORDS_WAIT: Duration = Duration::from_millis(200);
 /// Lines read ahead of the requests: one is a reply, a second one is a fault already.
 const LINES_AHEAD: usize = 2;
 /// How long a child that has closed its output may take to end, before it is ended.
@@ -67,12 +69,18 @@ impl Open for Program {
         // The threads end with the pipes. Nobody waits for them: a grandchild may keep a pipe open for ever.
         thread::spawn(move || write_lines(stdin, &to_write));
         thread::spawn(move || read_lines(BufReader::new(stdout), longest, &replies));
-        thread::spawn(move || keep_last(stderr, &words));
+        let (all_said, is_said) = channel();
+        thread::spawn(move || {
+            keep_last(stderr, &words);
+            // Nobody may be waiting for it.
+            let _ = all_said.send(());
+        });
         Ok(Box::new(Running {
             child,
             requests: Some(requests),
             replies: to_read,
             last_words,
+            is_said,
             limits: self.limits,
         }))
     }
@@ -90,6 +98,8 @@ struct Running {
     requests: Option<Sender<String>>,
     replies: Receiver<Heard>,
     last_words: Arc<Mutex<VecDeque<u8>>>,
+    /// Says when standard error has ended.
+    is_said: Receiver<()>,
     limits: ChildLimits,
 }
 
@@ -125,6 +135,10 @@ impl Peer for Running {
     }
 
     fn last_words(&mut self) -> String {
+        if matches!(self.child.try_wait(), Ok(Some(_))) {
+            // What a child said last may still be on its way.
+            let _ = self.is_said.recv_timeout(LAST_WORDS_WAIT);
+        }
         let words = self.last_words.lock().map(|words| words.iter().copied().collect::<Vec<u8>>());
         String::from_utf8_lossy(&words.unwrap_or_default()).into_owned()
     }

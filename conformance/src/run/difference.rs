@@ -3,8 +3,17 @@
 use crate::protocol::View;
 use dsr_core::State;
 
+/// The lines in which what is expected and what came differ.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Difference {
+    /// What should be there and is not.
+    pub expected: Vec<String>,
+    /// What is there and should not be.
+    pub got: Vec<String>,
+}
+
 /// What two views in canonical form differ in, line by line.
-pub(super) fn differ(expected: &View, found: &View) -> Option<String> {
+pub(super) fn differ(expected: &View, found: &View) -> Option<Difference> {
     let lines = |view: &View| {
         let mut lines = Vec::new();
         lines.extend(
@@ -20,7 +29,7 @@ pub(super) fn differ(expected: &View, found: &View) -> Option<String> {
 }
 
 /// What two states differ in, line by line.
-pub(super) fn differ_in_state(expected: &State, found: &State) -> Option<String> {
+pub(super) fn differ_in_state(expected: &State, found: &State) -> Option<Difference> {
     let lines = |state: &State| {
         let mut lines = vec![format!("context {}", text(state.context()))];
         lines.extend(state.records().map(|(dot, record)| format!("{dot} {}", text(record))));
@@ -29,10 +38,11 @@ pub(super) fn differ_in_state(expected: &State, found: &State) -> Option<String>
     (expected != found).then(|| in_lines(&lines(expected), &lines(found)))
 }
 
-fn in_lines(expected: &[String], found: &[String]) -> String {
-    let missing = without(expected, found).map(|line| format!("\n  - expected {line}"));
-    let surplus = without(found, expected).map(|line| format!("\n  + found    {line}"));
-    missing.chain(surplus).collect()
+fn in_lines(expected: &[String], found: &[String]) -> Difference {
+    Difference {
+        expected: without(expected, found).cloned().collect(),
+        got: without(found, expected).cloned().collect(),
+    }
 }
 
 /// The lines of one list that the other has not, or not as often.

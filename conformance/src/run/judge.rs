@@ -4,8 +4,10 @@ mod course;
 mod expect;
 mod invariants;
 
+use super::difference::Difference;
 use super::peer::Trouble;
 use super::session::Session;
+use super::watch::Watch;
 use crate::case::{Case, Step};
 use crate::protocol::{CaseBegin, Command, Decode, Load, Mutate};
 use crate::report::Verdict;
@@ -22,6 +24,17 @@ pub struct Failure {
     pub broken: Option<&'static str>,
     /// In words.
     pub what: String,
+    /// What was expected and what came, where that is what is wrong.
+    pub difference: Option<Difference>,
+}
+
+impl std::fmt::Display for Failure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.what)?;
+        let Some(Difference { expected, got }) = &self.difference else { return Ok(()) };
+        expected.iter().try_for_each(|line| write!(f, "\n  - expected {line}"))?;
+        got.iter().try_for_each(|line| write!(f, "\n  + got      {line}"))
+    }
 }
 
 /// Why a case stops before its end.
@@ -37,11 +50,15 @@ impl From<Trouble> for Stop {
 }
 
 /// Runs a case; `Err` if the conversation cannot go on, with the step at which it broke.
-pub(super) fn judge(session: &mut Session, case: &Case) -> Result<(Verdict, Failure), (Trouble, usize)> {
+pub(super) fn judge(
+    session: &mut Session,
+    case: &Case,
+    watch: &mut dyn Watch,
+) -> Result<(Verdict, Failure), (Trouble, usize)> {
     if let Some(what) = unsupported(session, case) {
         return Ok((Verdict::Unsupported, Failure { what, ..Failure::default() }));
     }
-    let mut course = Course::new(session, case);
+    let mut course = Course::new(session, case, watch);
     match course.carry_out() {
         Ok(()) => Ok((Verdict::Pass, Failure::default())),
         Err(Stop::Verdict(verdict, failure)) => Ok((verdict, failure)),

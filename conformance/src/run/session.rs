@@ -2,6 +2,7 @@
 
 use super::child::excerpt;
 use super::peer::{Peer, Trouble};
+use super::watch::Watch;
 use crate::protocol::{
     Command, Decline, ErrorCode, Feature, Hello, HelloReply, Need, Profile, Reply, Request, read_strictly,
 };
@@ -11,14 +12,29 @@ use serde::de::{DeserializeOwned, IgnoredAny};
 pub(super) struct Session {
     peer: Box<dyn Peer>,
     next_id: u64,
+    last_request: String,
     pub(super) hello: HelloReply,
 }
 
 impl Session {
     /// Shakes hands. `[spec: CONF-3]`
-    pub(super) fn begin(mut peer: Box<dyn Peer>, hello: Hello) -> Result<Self, Trouble> {
+    pub(super) fn begin(
+        mut peer: Box<dyn Peer>,
+        hello: Hello,
+        watch: &mut dyn Watch,
+    ) -> Result<Self, (Trouble, String)> {
+        match Self::shake(&mut *peer, hello, watch) {
+            Ok(hello) => Ok(Self { peer, next_id: 2, last_request: String::new(), hello }),
+            Err(trouble) => {
+                let told = told(&trouble, "", &peer.last_words());
+                Err((trouble, told))
+            }
+        }
+    }
+
+    fn shake(peer: &mut dyn Peer, hello: Hello, watch: &mut dyn Watch) -> Result<HelloReply, Trouble> {
         let offered = hello.protocols.clone();
-        let reply = ask::<HelloReply>(&mut *peer, 1, Command::Hello(hello))?;
+        let reply = ask::<HelloReply>(peer, &line_of(1, Command::Hello(hello))?, 1, watch)?;
         let hello = match reply {
             Ok(hello) => hello,
             Err(decline) => {
@@ -33,7 +49,7 @@ impl Session {
         if !hello.profiles.iter().any(|profile| profile == observe) {
             return Err(Trouble::protocol(format!("profiles {:?} lack {observe:?}", hello.profiles)));
         }
-        Ok(Self { peer, next_id: 2, hello })
+        Ok(hello)
     }
 
     pub(super) fn has_profile(&self, profile: Profile) -> bool {
@@ -53,10 +69,12 @@ impl Session {
     pub(super) fn ask<T: DeserializeOwned + Serialize>(
         &mut self,
         command: Command,
+        watch: &mut dyn Watch,
     ) -> Result<Result<T, Decline>, Trouble> {
         let (id, needs) = (self.next_id, command.needs());
         self.next_id += 1;
-        let reply = ask(&mut *self.peer, id, command)?;
+        self.last_request = line_of(id, command)?;
+        let reply = ask(&mut *self.peer, &self.last_request, id, watch)?;
         if let Err(decline) = &reply {
             self.keeps_its_word(decline, needs)?;
         }
@@ -99,9 +117,7 @@ impl Session {
 
     /// A trouble in words, with what the adapter said on standard error.
     pub(super) fn told(&mut self, trouble: &Trouble) -> String {
-        let words = self.peer.last_words();
-        let words = words.trim_end();
-        if words.is_empty() { trouble.to_string() } else { format!("{trouble}\nstandard error:\n{words}") }
+        told(trouble, &self.last_request, &self.peer.last_words())
     }
 
     /// Ends the conversation.
@@ -117,10 +133,13 @@ fn line_of(id: u64, command: Command) -> Result<String, Trouble> {
 
 fn ask<T: DeserializeOwned + Serialize>(
     peer: &mut dyn Peer,
+    request: &str,
     id: u64,
-    command: Command,
+    watch: &mut dyn Watch,
 ) -> Result<Result<T, Decline>, Trouble> {
-    let line = peer.exchange(&line_of(id, command)?)?;
+    watch.sent(request);
+    let line = peer.exchange(request)?;
+    watch.came(&line);
     let no_reply = |error| Trouble::protocol(format!("no reply: {error} in {}", excerpt(&line)));
     let numbered: Reply<IgnoredAny> = serde_json::from_str(&line).map_err(no_reply)?;
     if numbered.id != id {
@@ -129,6 +148,16 @@ fn ask<T: DeserializeOwned + Serialize>(
     let reply: Reply<T> = read_strictly(&line).map_err(no_reply)?;
     let none = || Trouble::protocol(format!("not exactly one of ok, skip, error in {}", excerpt(&line)));
     reply.result().ok_or_else(none)
+}
+
+/// A trouble in words, with the request that it came upon and the end of standard error.
+fn told(trouble: &Trouble, request: &str, last_words: &str) -> String {
+    let mut text = trouble.to_string();
+    if !request.is_empty() {
+        text = format!("{text}\nrequest: {}", excerpt(request));
+    }
+    let words = last_words.trim_end();
+    if words.is_empty() { text } else { format!("{text}\nstandard error:\n{words}") }
 }
 
 /// A decline in words.

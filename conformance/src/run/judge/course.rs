@@ -8,6 +8,7 @@ use crate::protocol::{
 };
 use crate::report::Verdict;
 use crate::run::session::{Session, words};
+use crate::run::watch::Watch;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
@@ -15,20 +16,22 @@ use std::collections::BTreeMap;
 pub(super) struct Course<'s, 'c> {
     pub(super) session: &'s mut Session,
     pub(super) case: &'c Case,
+    watch: &'s mut dyn Watch,
     /// The adapter's name for each delta that the case names.
     deltas: BTreeMap<&'c str, String>,
     step: usize,
 }
 
 impl<'s, 'c> Course<'s, 'c> {
-    pub(super) const fn new(session: &'s mut Session, case: &'c Case) -> Self {
-        Self { session, case, deltas: BTreeMap::new(), step: 0 }
+    pub(super) const fn new(session: &'s mut Session, case: &'c Case, watch: &'s mut dyn Watch) -> Self {
+        Self { session, case, watch, deltas: BTreeMap::new(), step: 0 }
     }
 
     pub(super) fn carry_out(&mut self) -> Result<(), Stop> {
         self.done::<Done>(begin(self.case))?;
         for step in &self.case.steps {
             self.step += 1;
+            self.watch.step(self.step, step);
             if step.expects() { self.expectation(step) } else { self.event(step) }?;
         }
         Ok(())
@@ -85,7 +88,7 @@ impl<'s, 'c> Course<'s, 'c> {
 
     /// A request that must succeed.
     pub(super) fn done<T: DeserializeOwned + Serialize>(&mut self, command: Command) -> Result<T, Stop> {
-        self.session.ask(command)?.map_err(|decline| self.declined(&decline))
+        self.session.ask(command, self.watch)?.map_err(|decline| self.declined(&decline))
     }
 
     /// A request that must be refused, with this kind if kinds are told and one is given; `Err` otherwise.
@@ -94,7 +97,7 @@ impl<'s, 'c> Course<'s, 'c> {
         command: Command,
         kind: Option<&str>,
     ) -> Result<(), Stop> {
-        let error = match self.session.ask::<T>(command)? {
+        let error = match self.session.ask::<T>(command, self.watch)? {
             Ok(_) => {
                 let with = kind.map(|kind| format!(" with {kind}")).unwrap_or_default();
                 return Err(self.failed(format!("accepts what it must refuse{with}")));
@@ -125,6 +128,6 @@ impl<'s, 'c> Course<'s, 'c> {
     }
 
     pub(super) const fn failure(&self, what: String) -> Failure {
-        Failure { step: self.step, broken: None, what }
+        Failure { step: self.step, broken: None, what, difference: None }
     }
 }

@@ -9,7 +9,7 @@ use crate::protocol::{
     MadeDelta, Mutate, Mutation, Read, Shown, StateShown, View,
 };
 use crate::report::Verdict;
-use crate::run::difference::{differ, differ_in_state};
+use crate::run::difference::{Difference, differ, differ_in_state};
 use crate::run::peer::Trouble;
 use dsr_core::{Digest, State};
 use serde::Deserialize;
@@ -91,7 +91,7 @@ impl<'c> Course<'_, 'c> {
             let found = self.view(other)?;
             self.no_difference(
                 differ(&expected, &found),
-                &format!("{first} (expected) and {other} (found) differ"),
+                &format!("{first} (expected) and {other} (got) do not show the same"),
             )?;
         }
         Ok(())
@@ -109,22 +109,28 @@ impl<'c> Course<'_, 'c> {
         let (command, what) = match of {
             Encoded::Delta(delta) => {
                 let name = DeltaName { delta: self.delta(delta) };
-                (Command::Encode(name), format!("the bytes of {delta}"))
+                (Command::Encode(name), format!("the bytes of {delta} are not what they should be"))
             }
             Encoded::Digest(replica) => {
                 let read = Read { replica: replica.clone() };
-                (Command::EncodeDigest(read), format!("the bytes of the digest of {replica}"))
+                (
+                    Command::EncodeDigest(read),
+                    format!("the bytes of the digest of {replica} are not what they should be"),
+                )
             }
             Encoded::Fingerprint(replica) => {
                 let read = Read { replica: replica.clone() };
-                (Command::Fingerprint(read), format!("the fingerprint of {replica}"))
+                (Command::Fingerprint(read), format!("the fingerprint of {replica} is not what it should be"))
             }
         };
         let found: BytesShown = self.done(command)?;
         if found.bytes == *bytes {
             return Ok(());
         }
-        Err(self.failed(format!("{what}:\n  - expected {bytes}\n  + found    {}", found.bytes)))
+        Err(self.differs(
+            what,
+            Difference { expected: vec![bytes.to_string()], got: vec![found.bytes.to_string()] },
+        ))
     }
 
     fn equal_states(&self, expected: &Value, found: &Value, whose: &str) -> Result<(), Stop> {
@@ -141,10 +147,16 @@ impl<'c> Course<'_, 'c> {
         if expected == found {
             return Ok(());
         }
-        Err(self.failed(format!("{what}:\n  - expected {expected:?}\n  + found    {found:?}")))
+        let (expected, got) = (vec![format!("{expected:?}")], vec![format!("{found:?}")]);
+        Err(self.differs(format!("{what} is not what it should be"), Difference { expected, got }))
     }
 
-    fn no_difference(&self, difference: Option<String>, what: &str) -> Result<(), Stop> {
-        difference.map_or(Ok(()), |difference| Err(self.failed(format!("{what}: {difference}"))))
+    fn no_difference(&self, difference: Option<Difference>, what: &str) -> Result<(), Stop> {
+        difference.map_or(Ok(()), |difference| Err(self.differs(what.into(), difference)))
+    }
+
+    fn differs(&self, what: String, difference: Difference) -> Stop {
+        let failure = Failure { difference: Some(difference), ..self.failure(what) };
+        Stop::Verdict(Verdict::Fail, failure)
     }
 }
