@@ -9,7 +9,9 @@
 //! **Mutations.** *add_vertex* puts the vertex and its link. *add_edge* puts a new object into the register, which
 //! replaces what the author has seen there. *update_attributes* puts and deletes entries. *remove_edge* deletes the
 //! register's entry: automerge's map lets a concurrent put survive. *move_edge* does both. *remove_vertex* deletes the
-//! vertex's entry, and with it all that is written inside, whenever. A group is one transaction.
+//! vertex's entry, and with it all that is written inside, whenever. A group is one transaction. Whatever competes for a
+//! register is the first operation of its mutation: automerge orders by operations, so that after equal histories the
+//! actor decides, and not how much else a mutation writes.
 //!
 //! **Messages** are changes, by their bytes; automerge holds back those whose causes have not come, and takes
 //! duplicates. What another replica lacks is asked by hashes.
@@ -149,12 +151,16 @@ impl<T: Transactable + ReadDoc> Writer<'_, T> {
     fn edit(&mut self, edit: &Edit) -> Result<()> {
         match edit {
             Edit::AddVertex { handle, vertex_type, name, attributes, link, link_attributes } => {
+                if link.label != RT {
+                    self.claim(link, link_attributes)?;
+                }
                 let vertices = object(&self.document, &DOCUMENT, "vertices")?;
                 let vertex = self.document.put_object(&vertices, handle.as_str(), ObjType::Map)?;
                 self.document.put(&vertex, "type", vertex_type.as_str())?;
                 self.document.put(&vertex, "name", name.as_str())?;
                 self.fill(&vertex, attributes)?;
-                self.claim(link, link_attributes)
+                // The register of such a link is inside the vertex.
+                if link.label == RT { self.claim(link, link_attributes) } else { Ok(()) }
             }
             Edit::AddEdge { edge, attributes } => self.claim(edge, attributes),
             Edit::Update { target, updates } => {
@@ -169,8 +175,9 @@ impl<T: Transactable + ReadDoc> Writer<'_, T> {
             }
             Edit::RemoveEdge { edge } => self.free(edge),
             Edit::MoveEdge { old, new, attributes } => {
-                self.free(old)?;
-                self.claim(new, attributes)
+                let (held, register) = (self.register(old)?, self.register(new)?);
+                self.claim(new, attributes)?;
+                if held == register { Ok(()) } else { self.free(old) }
             }
             Edit::RemoveVertex { handle } => {
                 let vertices = object(&self.document, &DOCUMENT, "vertices")?;
@@ -187,8 +194,12 @@ impl<T: Transactable + ReadDoc> Writer<'_, T> {
         Ok(())
     }
 
+    fn register(&self, edge: &EdgeName) -> Result<(ObjId, String)> {
+        place(&self.document, edge, self.dictionary)
+    }
+
     fn claim(&mut self, edge: &EdgeName, attributes: &Attributes) -> Result<()> {
-        let (map, key) = place(&self.document, edge, self.dictionary)?;
+        let (map, key) = self.register(edge)?;
         let id = self.document.put_object(&map, key.as_str(), ObjType::Map)?;
         for (key, part) in [("from", &edge.from), ("label", &edge.label), ("to", &edge.to)] {
             self.document.put(&id, key, part.as_str())?;
@@ -197,7 +208,7 @@ impl<T: Transactable + ReadDoc> Writer<'_, T> {
     }
 
     fn free(&mut self, edge: &EdgeName) -> Result<()> {
-        let (map, key) = place(&self.document, edge, self.dictionary)?;
+        let (map, key) = self.register(edge)?;
         Ok(self.document.delete(&map, key.as_str())?)
     }
 

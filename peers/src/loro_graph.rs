@@ -18,7 +18,8 @@
 //! deletes the vertex's entry and leaves its node, whose children would otherwise be lost: concurrent moves would bring a
 //! deleted node back, an entry that nobody writes again stays away. Before a node is moved below another one, the
 //! topmost node above that whose own link is not shown is moved to the top of the forest, since a link that nobody sees
-//! must close no cycle. A group is one commit.
+//! must close no cycle. A group is one commit. Whatever competes for a register is the first operation of its mutation: Loro
+//! orders by operations, so that after equal histories the peer decides, and not how much else a mutation writes.
 //!
 //! **Messages** are exported updates since the version before. Loro keeps those whose causes have not come, and takes
 //! duplicates. What another replica lacks is asked by its version vector. A group is imported as a batch.
@@ -164,15 +165,17 @@ impl LoroGraph {
     fn edit(&mut self, edit: &Edit) -> Result<()> {
         match edit {
             Edit::AddVertex { handle, vertex_type, name, attributes, link, link_attributes } => {
-                let tree = self.tree();
-                let node = tree.create(TreeParentId::Root)?;
-                let meta = tree.get_meta(node)?;
+                if link.label != RT {
+                    self.claim(link, link_attributes)?;
+                }
+                let node = self.tree().create(TreeParentId::Root)?;
+                self.map("vertices").insert(handle, node.to_string())?;
+                let meta = self.tree().get_meta(node)?;
                 for (key, part) in [("vertex", handle), ("type", vertex_type), ("name", name)] {
                     meta.insert(key, part.as_str())?;
                 }
                 fill(&meta, attributes)?;
-                self.map("vertices").insert(handle, node.to_string())?;
-                self.claim(link, link_attributes)
+                if link.label == RT { self.claim(link, link_attributes) } else { Ok(()) }
             }
             Edit::AddEdge { edge, attributes } => self.claim(edge, attributes),
             Edit::Update { target, updates } => {
@@ -188,10 +191,9 @@ impl LoroGraph {
             Edit::RemoveEdge { edge } => self.free(edge),
             Edit::MoveEdge { old, new, attributes } => {
                 let is_one_child = old.label == RT && new.label == RT && old.to == new.to;
-                if !is_one_child {
-                    self.free(old)?;
-                }
-                self.claim(new, attributes)
+                let is_one_register = register(old, &self.dictionary) == register(new, &self.dictionary);
+                self.claim(new, attributes)?;
+                if is_one_child || is_one_register { Ok(()) } else { self.free(old) }
             }
             Edit::RemoveVertex { handle } => Ok(self.map("vertices").delete(handle)?),
         }
@@ -209,18 +211,19 @@ impl LoroGraph {
     }
 
     fn claim(&mut self, edge: &EdgeName, attributes: &Attributes) -> Result<()> {
-        let register_of = |edge: &EdgeName| register(edge, &self.dictionary);
-        let key = register_of(edge);
-        self.delete_edges(|held| register_of(held) == key)?;
+        if edge.label == RT {
+            self.place(&edge.to, &edge.from)?;
+        }
+        let key = register(edge, &self.dictionary);
         self.made += 1;
         let id = format!("{}.{}", self.identity.number(), self.made);
+        self.map("shown").insert(&key, id.as_str())?;
+        self.delete_edges(|held| register(held, &self.dictionary) == key)?;
         let held = self.map("edges").insert_container(&id, LoroMap::new())?;
         for (key, part) in [("from", &edge.from), ("label", &edge.label), ("to", &edge.to)] {
             held.insert(key, part.as_str())?;
         }
-        fill(&held, attributes)?;
-        self.map("shown").insert(&key, id)?;
-        if edge.label == RT { self.place(&edge.to, &edge.from) } else { Ok(()) }
+        fill(&held, attributes)
     }
 
     fn free(&self, edge: &EdgeName) -> Result<()> {

@@ -10,7 +10,7 @@ use std::process::ExitCode;
 /// Answers the conformance harness with graphs that are built on another library's CRDTs.
 ///
 /// Reads one request a line from standard input and writes one reply a line to standard output, as the chapter
-/// `spec/conformance.md` says. Run it under the harness: `dsr conform -- dsr-peer loro`.
+/// `spec/conformance.md` says. Run it under the harness: `dsr conform run -- dsr-peer loro`.
 #[derive(Parser)]
 #[command(name = "dsr-peer", version)]
 struct Arguments {
