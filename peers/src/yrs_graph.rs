@@ -25,8 +25,8 @@ use dsr_conformance::protocol::{EdgeName, Implementation, ROOT};
 use dsr_core::{Dictionary, RT};
 use yrs::updates::decoder::Decode;
 use yrs::{
-    Any, Doc, Map, MapPrelim, MapRef, Out, ReadTxn, StateVector, Transact, TransactionMut, Update,
-    merge_updates_v1,
+    Any, ClientID, Doc, Map, MapPrelim, MapRef, Options, Out, ReadTxn, StateVector, Transact, TransactionMut,
+    Update, merge_updates_v1,
 };
 
 /// What goes wrong.
@@ -256,7 +256,9 @@ impl Replica for YrsGraph {
     }
 
     fn new(identity: Identity, dictionary: &Dictionary) -> Result<Self> {
-        let document = Doc::with_client_id(identity.number());
+        let mut options = Options::with_client_id(ClientID::new(identity.number()));
+        options.skip_gc = true;
+        let document = Doc::with_options(options);
         let roots = Roots::of(&document);
         Ok(Self { document, roots, dictionary: dictionary.clone(), identity })
     }

@@ -2,120 +2,21 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on says where")]
 
+mod common;
+
+use common::Dice;
 use dsr_conformance::adapter::{Adapter, Core};
 use dsr_conformance::protocol::{
-    AnswerFor, CaseBegin, Decline, Deliver, EdgeName, Link, Mutate, Mutation, ROOT, Read, Restart, Tagged,
-    Unique, View,
+    AnswerFor, CaseBegin, Decline, Deliver, Hello, HelloReply, MadeDelta, Mutate, Mutation, ROOT, Read,
+    Restart, Shown, View,
 };
-use dsr_core::{Dictionary, Value, ValueType};
+use dsr_core::{Dictionary, Value};
 use dsr_peers::replica::Replica;
 use dsr_peers::{AutomergeGraph, LoroGraph, Peer, YrsGraph};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 const REPLICAS: [&str; 2] = ["a", "b"];
-const LABELS: [&str; 5] = ["RT", "RT", "in", "near", ""];
-const SEEDS: u64 = 24;
+const SEEDS: u64 = 40;
 const STEPS: usize = 60;
-
-struct Dice(ChaCha8Rng);
-
-impl Dice {
-    fn below(&mut self, bound: usize) -> usize {
-        usize::try_from(self.0.next_u32()).unwrap() % bound
-    }
-
-    fn pick<'i, T: ?Sized>(&mut self, items: &[&'i T]) -> &'i T {
-        items[self.below(items.len())]
-    }
-
-    fn value(&mut self) -> Tagged {
-        let float = self.pick(&[&0.0, &-0.0, &1.5, &f64::NAN, &f64::NEG_INFINITY, &f64::MIN_POSITIVE]);
-        #[expect(clippy::cast_possible_truncation, reason = "any 32-bit float will do")]
-        let short = *float as f32;
-        let whole = *self.pick(&[&0, &u64::MAX, &(1 << 53), &((1 << 53) + 1)]);
-        Tagged(
-            match ValueType::ALL[self.below(ValueType::ALL.len())] {
-                ValueType::String => Value::String("kitchen \u{0} \u{1F916}".into()),
-                ValueType::Int => Value::Int(i32::MIN),
-                ValueType::Float => Value::Float(short),
-                ValueType::FloatVec => Value::FloatVec(vec![short; self.below(3)].into()),
-                ValueType::Bool => Value::Bool(self.below(2) == 0),
-                ValueType::ByteVec => Value::ByteVec(vec![0, 255].into()),
-                ValueType::UInt => Value::UInt(u32::MAX),
-                ValueType::UInt64 => Value::UInt64(whole),
-                ValueType::Double => Value::Double(*float),
-                ValueType::U64Vec => Value::U64Vec(vec![whole; 2].into()),
-                ValueType::Vec2 => Value::Vec2([short; 2]),
-                ValueType::Vec3 => Value::Vec3([short; 3]),
-                ValueType::Vec4 => Value::Vec4([short; 4]),
-                ValueType::Vec6 => Value::Vec6([short; 6]),
-            }
-            .with_canonical_nans(),
-        )
-    }
-
-    fn attributes(&mut self) -> Unique<Tagged> {
-        let names = ["level", "pose", "x/y", "attributes"];
-        Unique((0..self.below(3)).map(|_| (self.pick(&names).to_owned(), self.value())).collect())
-    }
-
-    fn edge(&mut self, handles: &[&str], view: &View) -> EdgeName {
-        if !view.edges.is_empty() && self.below(6) > 0 {
-            let edge = &view.edges[self.below(view.edges.len())];
-            return EdgeName { from: edge.from.clone(), label: edge.label.clone(), to: edge.to.clone() };
-        }
-        let label = self.pick(&LABELS).into();
-        EdgeName { from: self.pick(handles).into(), label, to: self.pick(handles).into() }
-    }
-
-    /// Any mutation, of what is there or was once; many are refused.
-    fn mutation(&mut self, handles: &[&str], view: &View, new: &str) -> Mutation {
-        let label = self.pick(&LABELS).to_owned();
-        let (one, other) = (self.pick(handles).to_owned(), self.pick(handles).to_owned());
-        match self.below(8) {
-            0 | 1 => {
-                let (from, to) = if self.below(4) > 0 { (Some(one), None) } else { (None, Some(one)) };
-                let name = if self.below(8) > 0 { new } else { self.pick(&["root", "v1", ""]) };
-                let link = Link { from, label, to, attributes: self.attributes() };
-                let attributes = self.attributes();
-                Mutation::AddVertex {
-                    r#as: new.into(),
-                    r#type: "thing".into(),
-                    name: name.into(),
-                    attributes,
-                    link,
-                }
-            }
-            2 => Mutation::AddEdge { from: one, label, to: other, attributes: self.attributes() },
-            3 | 4 => {
-                let mut updates: Unique<Option<Tagged>> = Unique::default();
-                for (name, value) in self.attributes().0 {
-                    updates.0.insert(name, (self.below(3) > 0).then_some(value));
-                }
-                let (vertex, edge) = if self.below(2) == 0 {
-                    (Some(one), None)
-                } else {
-                    (None, Some(self.edge(handles, view)))
-                };
-                Mutation::UpdateAttributes { vertex, edge, attributes: updates }
-            }
-            5 => {
-                let EdgeName { from, label, to } = self.edge(handles, view);
-                Mutation::RemoveEdge { from, label, to }
-            }
-            6 => {
-                let old = self.edge(handles, view);
-                let mut new = EdgeName { from: one, ..old.clone() };
-                if self.below(3) == 0 {
-                    new = EdgeName { from: new.from, label, to: other };
-                }
-                Mutation::MoveEdge { old, new, attributes: self.attributes() }
-            }
-            _ => Mutation::RemoveVertex { vertex: one },
-        }
-    }
-}
 
 fn kind(decline: Decline) -> (String, Option<String>) {
     match decline {
@@ -130,10 +31,10 @@ fn shown(adapter: &mut dyn Adapter, replica: &str) -> View {
 }
 
 /// One walk: each mutation reaches the other replica before the next one is made. Returns how many were made, and how
-/// many refused.
-fn walk(peer: &mut dyn Adapter, seed: u64) -> (usize, usize) {
+/// many refused; or how the adapter differs from the core.
+fn walk(peer: &mut dyn Adapter, seed: u64) -> Result<(usize, usize), String> {
     let mut core = Core::default();
-    let mut dice = Dice(ChaCha8Rng::seed_from_u64(seed));
+    let mut dice = Dice::new(seed);
     let dictionary = (seed % 2 == 0).then(|| Dictionary::open().with_functional("in"));
     let replicas = REPLICAS.iter().map(|&name| name.into()).collect();
     let case = CaseBegin { case: format!("walk/{seed}"), replicas, dictionary };
@@ -172,22 +73,30 @@ fn walk(peer: &mut dyn Adapter, seed: u64) -> (usize, usize) {
             }
             (Err(by_core), Err(by_peer)) => {
                 refused += 1;
-                assert_eq!(kind(by_peer), kind(by_core), "{place}");
+                let (by_peer, by_core) = (kind(by_peer), kind(by_core));
+                if by_peer != by_core {
+                    return Err(format!("{place}: {by_peer:?}, where the core says {by_core:?}"));
+                }
             }
-            (by_core, by_peer) => panic!("{place}: the core says {by_core:?}, the peer {by_peer:?}"),
+            (by_core, by_peer) => {
+                return Err(format!("{place}: {by_peer:?}, where the core says {by_core:?}"));
+            }
         }
         for replica in REPLICAS {
-            assert_eq!(shown(peer, replica), shown(&mut core, replica), "{place}, {replica} after it");
+            let (found, expected) = (shown(peer, replica), shown(&mut core, replica));
+            if found != expected {
+                return Err(format!("{place}: {replica} shows {found:?}, and with the core {expected:?}"));
+            }
         }
     }
-    (made, refused)
+    Ok((made, refused))
 }
 
 fn walks<R: Replica>() {
     let (mut made, mut refused) = (0, 0);
     for seed in 0..SEEDS {
         println!("seed {seed}");
-        let counts = walk(&mut Peer::<R>::default(), seed);
+        let counts = walk(&mut Peer::<R>::default(), seed).unwrap();
         (made, refused) = (made + counts.0, refused + counts.1);
     }
     println!("{made} made, {refused} refused");
@@ -210,4 +119,51 @@ fn differential_loro_shows_what_the_core_shows_in_sequence() {
 #[test]
 fn differential_yrs_shows_what_the_core_shows_in_sequence() {
     walks::<YrsGraph>();
+}
+
+/// The core, but every integer of a vertex is shown one too great.
+struct OffByOne(Core);
+
+impl Adapter for OffByOne {
+    fn hello(&mut self, hello: &Hello) -> Result<HelloReply, Decline> {
+        self.0.hello(hello)
+    }
+
+    fn begin(&mut self, case: &CaseBegin) -> Result<(), Decline> {
+        self.0.begin(case)
+    }
+
+    fn mutate(&mut self, mutate: &Mutate) -> Result<MadeDelta, Decline> {
+        self.0.mutate(mutate)
+    }
+
+    fn deliver(&mut self, deliver: &Deliver) -> Result<(), Decline> {
+        self.0.deliver(deliver)
+    }
+
+    fn restart(&mut self, restart: &Restart) -> Result<(), Decline> {
+        self.0.restart(restart)
+    }
+
+    fn resynchronise(&mut self, answer: &AnswerFor) -> Result<MadeDelta, Decline> {
+        self.0.resynchronise(answer)
+    }
+
+    fn read(&mut self, read: &Read) -> Result<Shown, Decline> {
+        let mut shown = self.0.read(read)?;
+        for vertex in shown.view.vertices.0.values_mut() {
+            for value in vertex.attributes.0.values_mut() {
+                if let Value::Int(number) = &mut value.0 {
+                    *number += 1;
+                }
+            }
+        }
+        Ok(shown)
+    }
+}
+
+#[test]
+fn canary_a_difference_is_found() {
+    assert!((0..SEEDS).any(|seed| walk(&mut OffByOne(Core::default()), seed).is_err()));
+    assert!((0..SEEDS).all(|seed| walk(&mut Core::default(), seed).is_ok()));
 }
