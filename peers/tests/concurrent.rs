@@ -17,7 +17,7 @@ use dsr_peers::{AutomergeGraph, LoroGraph, Peer, YrsGraph};
 use std::collections::BTreeMap;
 
 const REPLICAS: [&str; 3] = ["a", "b", "c"];
-const SEEDS: u64 = 150;
+const SEEDS: u64 = 200;
 const STEPS: usize = 40;
 
 struct Walk<R> {
@@ -26,6 +26,8 @@ struct Walk<R> {
     dictionary: Option<Dictionary>,
     handles: Vec<String>,
     deltas: Vec<String>,
+    /// Whether moves in the tree are frequent.
+    places: bool,
     /// How many views broke each invariant.
     broken: BTreeMap<&'static str, usize>,
 }
@@ -44,6 +46,7 @@ impl<R: Replica> Walk<R> {
             dictionary,
             handles,
             deltas: Vec::new(),
+            places: seed % 4 < 2,
             broken: BTreeMap::new(),
         };
         walk.begin();
@@ -116,9 +119,9 @@ impl<R: Replica> Walk<R> {
         };
         let dice = &mut self.dice;
         let mutations: Vec<Mutation> = (0..=dice.below(2))
-            .map(|part| match placed(dice, &names, &view) {
-                Some(mutation) => mutation,
-                None => dice.mutation(&names, &view, &format!("v{step}-{part}")),
+            .map(|part| {
+                let placed = self.places.then(|| placed(dice, &names, &view)).flatten();
+                placed.unwrap_or_else(|| dice.mutation(&names, &view, &format!("v{step}-{part}")))
             })
             .collect();
         let mutate = Mutate { replica: author.into(), mutations };
