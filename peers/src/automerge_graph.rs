@@ -6,9 +6,9 @@
 //! The register of an `RT` edge is its child's `parent`, so a child has one parent; that of another edge is the key
 //! of `edges` that spells its source, label and target, without the target if the label is functional.
 //!
-//! **Mutations.** *add_vertex* puts the vertex and its link. *add_edge* puts a new object into the register, which
-//! replaces what the author has seen there. *update_attributes* puts and deletes entries. *remove_edge* deletes the
-//! register's entry: automerge's map lets a concurrent put survive. *move_edge* does both. *remove_vertex* deletes the
+//! **Mutations.** `add_vertex` puts the vertex and its link. `add_edge` puts a new object into the register, which
+//! replaces what the author has seen there. `update_attributes` puts and deletes entries. `remove_edge` deletes the
+//! register's entry: automerge's map lets a concurrent put survive. `move_edge` does both. `remove_vertex` deletes the
 //! vertex's entry, and with it all that is written inside, whenever. A group is one transaction. Whatever competes for a
 //! register is the first operation of its mutation: automerge orders by operations, so that after equal histories the
 //! actor decides, and not how much else a mutation writes.

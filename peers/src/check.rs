@@ -78,7 +78,7 @@ pub fn check(graph: &Graph, dictionary: &Dictionary, mutation: &Mutation) -> Res
     })
 }
 
-/// Whether an edit strands a vertex: what is shown before and after it. Those that add never do. `[spec: MUT-4.2]`
+/// Whether an edit strands a vertex: what is shown before and after it. Those that add never do (MUT-4.2).
 pub fn strands(before: &Graph, after: &Graph) -> Result<(), Refusal> {
     let was = before.stranded();
     let is = after.stranded();
@@ -95,7 +95,7 @@ fn link_edge(link: &Link, new: &str) -> Result<EdgeName, CheckError> {
     Ok(EdgeName { from, label: link.label.clone(), to })
 }
 
-/// `[spec: MUT-1.2]` `[spec: MUT-1.3]`
+/// Whether a vertex of this type and name may be made (MUT-1.2, MUT-1.3).
 fn new_vertex(graph: &Graph, dictionary: &Dictionary, vertex_type: &str, name: &str) -> Result<(), Refusal> {
     if let Some(text) = [vertex_type, name].into_iter().find(|text| !fits(text.len())) {
         return Err(Refusal::NameLength(text.len()));
@@ -112,7 +112,7 @@ fn new_vertex(graph: &Graph, dictionary: &Dictionary, vertex_type: &str, name: &
     }
 }
 
-/// `[spec: MUT-1.1]`
+/// Whether a new vertex may be linked so (MUT-1.1).
 fn new_link(graph: &Graph, dictionary: &Dictionary, link: &EdgeName, new: &str) -> Result<(), EdgeRefusal> {
     let leaves = link.from == new;
     let other = if leaves { &link.to } else { &link.from };
@@ -141,14 +141,14 @@ fn parent_fits(graph: &Graph, parent: &str) -> Result<(), EdgeRefusal> {
     if graph.in_tree(parent) { Ok(()) } else { Err(EdgeRefusal::ParentOutsideTree(parent.into())) }
 }
 
-/// `[spec: MUT-2.4]`
+/// Whether no edge of the same functional label is shown (MUT-2.4).
 fn register_is_free(graph: &Graph, dictionary: &Dictionary, edge: &EdgeName) -> Result<(), EdgeRefusal> {
     let is_taken = dictionary.is_functional(&edge.label)
         && graph.edges.keys().any(|held| held.from == edge.from && held.label == edge.label);
     if is_taken { Err(EdgeRefusal::FunctionalTaken(edge.label.clone())) } else { Ok(()) }
 }
 
-/// `[spec: MUT-2.1]` to `[spec: MUT-2.5]`
+/// Whether an edge may be made (MUT-2.1 to MUT-2.5).
 fn new_edge(graph: &Graph, dictionary: &Dictionary, edge: &EdgeName) -> Result<(), EdgeRefusal> {
     label_fits(dictionary, &edge.label)?;
     if let Some(end) = [&edge.from, &edge.to].into_iter().find(|end| !graph.has(end)) {
@@ -177,7 +177,7 @@ fn new_edge(graph: &Graph, dictionary: &Dictionary, edge: &EdgeName) -> Result<(
     Ok(())
 }
 
-/// `[spec: MUT-5.1]` to `[spec: MUT-5.3]`
+/// Whether an edge may be moved (MUT-5.1 to MUT-5.3).
 fn moved_edge(
     graph: &Graph,
     dictionary: &Dictionary,
@@ -197,7 +197,7 @@ fn moved_edge(
     new_edge(&without, dictionary, new).map_err(Refusal::Edge)
 }
 
-/// `[spec: MUT-3.2]`
+/// Whether attributes may be given (MUT-3.2).
 fn attributes_fit(dictionary: &Dictionary, attributes: &Attributes) -> Result<(), AttributeRefusal> {
     if attributes.len() > limits::ATTRIBUTES_MAX {
         return Err(AttributeRefusal::TooMany(attributes.len()));
@@ -222,7 +222,7 @@ fn attribute_fits(dictionary: &Dictionary, name: &str, value: &Tagged) -> Result
     Ok(())
 }
 
-/// `[spec: MUT-3.2]` to `[spec: MUT-3.4]`
+/// Whether attributes may be updated (MUT-3.2 to MUT-3.4).
 fn updates_fit(
     dictionary: &Dictionary,
     held: &Attributes,

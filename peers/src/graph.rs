@@ -36,7 +36,7 @@ impl Graph {
         handle == ROOT || self.vertices.contains_key(handle)
     }
 
-    /// Adds an edge if both its ends are there; what dangles is not shown. `[spec: INV-2]`
+    /// Adds an edge if both its ends are there; what dangles is not shown (INV-2).
     pub fn show(&mut self, edge: EdgeName, attributes: Attributes) {
         if self.has(&edge.from) && self.has(&edge.to) {
             self.edges.insert(edge, attributes);
@@ -56,7 +56,7 @@ impl Graph {
         self.kinematic().any(|edge| edge.from == vertex)
     }
 
-    /// Whether a vertex has a place in the kinematic tree. `[spec: VIEW-4]`
+    /// Whether a vertex has a place in the kinematic tree (VIEW-4).
     pub fn in_tree(&self, vertex: &str) -> bool {
         vertex == ROOT || self.parent(vertex).is_some() || self.has_child(vertex)
     }
@@ -74,13 +74,13 @@ impl Graph {
         false
     }
 
-    /// The vertices with children and without a kinematic parent. `[spec: VIEW-4]`
+    /// The vertices with children and without a kinematic parent (VIEW-4).
     fn detached(&self) -> impl Iterator<Item = &str> {
         let vertices = self.vertices.keys().map(String::as_str);
         vertices.filter(|vertex| self.parent(vertex).is_none() && self.has_child(vertex))
     }
 
-    /// The vertices that are detached, or have no path to the root. `[spec: VIEW-5]`
+    /// The vertices that are detached, or have no path to the root (VIEW-5).
     pub fn stranded(&self) -> BTreeSet<&str> {
         let mut reached = BTreeSet::from([ROOT]);
         let mut found = true;

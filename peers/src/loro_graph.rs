@@ -10,11 +10,11 @@
 //! An `RT` edge is shown if the tree has its child below its parent and `shown` names an edge for this pair. So the
 //! tree decides between concurrent moves, and the edge that belongs to its answer comes with its attributes.
 //!
-//! **Mutations.** *add_vertex* makes the node, the entry and the link. *add_edge* deletes the edges of the register,
-//! inserts one and names it in `shown`; of an `RT` edge it also moves the child's node. *update_attributes* inserts and
-//! deletes entries. *remove_edge* deletes the edges of the register that the author holds, for an `RT` edge all that
-//! enter its child, and leaves the node where it is, so that a concurrent move still stands. *move_edge* does both; for
-//! one child it leaves the old edge to the tree, which may refuse the move when it meets a concurrent one. *remove_vertex*
+//! **Mutations.** `add_vertex` makes the node, the entry and the link. `add_edge` deletes the edges of the register,
+//! inserts one and names it in `shown`; of an `RT` edge it also moves the child's node. `update_attributes` inserts and
+//! deletes entries. `remove_edge` deletes the edges of the register that the author holds, for an `RT` edge all that
+//! enter its child, and leaves the node where it is, so that a concurrent move still stands. `move_edge` does both; for
+//! one child it leaves the old edge to the tree, which may refuse the move when it meets a concurrent one. `remove_vertex`
 //! deletes the vertex's entry and leaves its node, whose children would otherwise be lost: concurrent moves would bring a
 //! deleted node back, an entry that nobody writes again stays away. Before a node is moved below another one, the
 //! topmost node above that whose own link is not shown is moved to the top of the forest, since a link that nobody sees
@@ -68,7 +68,7 @@ pub struct LoroGraph {
 fn map(parent: &LoroMap, key: &str) -> Result<LoroMap> {
     match parent.get(key) {
         Some(ValueOrContainer::Container(container)) => {
-            container.into_map().map_err(|_| LoroGraphError::Layout(key.into()))
+            container.into_map().ok().ok_or_else(|| LoroGraphError::Layout(key.into()))
         }
         _ => Err(LoroGraphError::Layout(key.into())),
     }

@@ -2,7 +2,7 @@
 
 use dsr_core::limits;
 
-/// An attribute cannot be written so. `[spec: MUT-3.2]`
+/// An attribute cannot be written so (MUT-3.2).
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum AttributeRefusal {
     /// The dictionary is closed and does not list it.
@@ -27,7 +27,7 @@ pub enum AttributeRefusal {
     TooMany(usize),
 }
 
-/// An edge cannot be made. `[spec: MUT-2.1]` and following.
+/// An edge cannot be made (MUT-2.1 and following).
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum EdgeRefusal {
     /// An end is not in the graph.

@@ -55,11 +55,11 @@ pub trait Replica: Sized {
 }
 
 /// The name of the register that an edge competes for, beyond kinematic ones: those of one key, or of one source and
-/// functional label. `[spec: STAMP-4]`
+/// functional label (STAMP-4).
 pub(crate) fn register(edge: &EdgeName, dictionary: &Dictionary) -> String {
     let functional = edge.label != RT && dictionary.is_functional(&edge.label);
     let parts = [Some(&edge.from), Some(&edge.label), (!functional).then_some(&edge.to)];
-    serde_json::Value::from_iter(parts.into_iter().flatten().map(String::as_str)).to_string()
+    parts.into_iter().flatten().map(String::as_str).collect::<serde_json::Value>().to_string()
 }
 
 /// A value as text: the project's JSON of all fourteen types, which loses nothing (JSON-4 to JSON-6). A value is one

@@ -35,7 +35,7 @@ fn shown(adapter: &mut dyn Adapter, replica: &str) -> View {
 fn walk(peer: &mut dyn Adapter, seed: u64) -> Result<(usize, usize), String> {
     let mut core = Core::default();
     let mut dice = Dice::new(seed);
-    let dictionary = (seed % 2 == 0).then(|| Dictionary::open().with_functional("in"));
+    let dictionary = seed.is_multiple_of(2).then(|| Dictionary::open().with_functional("in"));
     let replicas = REPLICAS.iter().map(|&name| name.into()).collect();
     let case = CaseBegin { case: format!("walk/{seed}"), replicas, dictionary };
     core.begin(&case).unwrap();
@@ -103,19 +103,16 @@ fn walks<R: Replica>() {
     assert!(made > 200 && refused > 200);
 }
 
-/// `[spec: VIEW-12]`
 #[test]
 fn differential_automerge_shows_what_the_core_shows_in_sequence() {
     walks::<AutomergeGraph>();
 }
 
-/// `[spec: VIEW-12]`
 #[test]
 fn differential_loro_shows_what_the_core_shows_in_sequence() {
     walks::<LoroGraph>();
 }
 
-/// `[spec: VIEW-12]`
 #[test]
 fn differential_yrs_shows_what_the_core_shows_in_sequence() {
     walks::<YrsGraph>();
