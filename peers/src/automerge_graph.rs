@@ -236,7 +236,7 @@ impl Replica for AutomergeGraph {
     fn implementation() -> Implementation {
         Implementation {
             name: "automerge".into(),
-            version: "0.12".into(),
+            version: "0.12.0".into(),
             language: "Rust".into(),
             source: "https://github.com/automerge/automerge".into(),
         }

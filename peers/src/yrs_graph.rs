@@ -250,7 +250,7 @@ impl Replica for YrsGraph {
     fn implementation() -> Implementation {
         Implementation {
             name: "yrs".into(),
-            version: "0.28".into(),
+            version: "0.28.1".into(),
             language: "Rust".into(),
             source: "https://github.com/y-crdt/y-crdt".into(),
         }

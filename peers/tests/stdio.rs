@@ -53,3 +53,15 @@ fn law_the_program_ends_with_its_input_and_refuses_other_names() {
     let help = Command::new(PROGRAM).arg("--help").output().unwrap();
     assert!(String::from_utf8_lossy(&help.stdout).contains("dsr conform run -- dsr-peer loro"));
 }
+
+/// What a replica's implementation says of itself is what is linked.
+#[test]
+fn law_versions_are_those_of_the_lock_file() {
+    let lock = concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.lock");
+    let lock = std::fs::read_to_string(lock).unwrap();
+    let said = [AutomergeGraph::implementation(), LoroGraph::implementation(), YrsGraph::implementation()];
+    for said in said {
+        let entry = format!("name = \"{}\"\nversion = \"{}\"\n", said.name, said.version);
+        assert!(lock.contains(&entry), "{} {}", said.name, said.version);
+    }
+}
