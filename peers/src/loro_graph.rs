@@ -26,34 +26,18 @@
 //!
 //! **Reading** takes Loro's tree, and of concurrent entries its last by Lamport time; a deletion is an entry like others.
 
-use crate::edit::{Edit, Target};
-use crate::graph::{Attributes, Graph, Vertex};
-use crate::replica::{Identity, Message, Replica, of_text, register, to_text};
+mod layout;
+mod write;
+
+pub use layout::LoroGraphError;
+
+use crate::edit::Edit;
+use crate::graph::{Graph, Vertex};
+use crate::replica::{Identity, Message, Replica, register};
 use dsr_conformance::protocol::{EdgeName, Implementation, ROOT};
 use dsr_core::{Dictionary, RT};
-use loro::{
-    ExportMode, LoroDoc, LoroEncodeError, LoroError, LoroMap, LoroTree, LoroValue, TreeID, TreeParentId,
-    ValueOrContainer,
-};
-
-/// What goes wrong.
-#[derive(Debug, thiserror::Error)]
-pub enum LoroGraphError {
-    /// In Loro.
-    #[error(transparent)]
-    Loro(#[from] LoroError),
-    /// An update cannot be written.
-    #[error(transparent)]
-    Encode(#[from] LoroEncodeError),
-    /// A text is no value.
-    #[error("not a value: {0}")]
-    Value(#[from] serde_json::Error),
-    /// The document is not as this module lays it out.
-    #[error("{0:?} is not where it should be in the document")]
-    Layout(String),
-}
-
-type Result<T> = std::result::Result<T, LoroGraphError>;
+use layout::{Result, attributes, edge, keys, map, open, text};
+use loro::{ExportMode, LoroDoc, LoroMap, LoroTree, LoroValue, TreeID, TreeParentId, ValueOrContainer};
 
 /// A replica in Loro.
 #[derive(Debug)]
@@ -63,64 +47,6 @@ pub struct LoroGraph {
     identity: Identity,
     /// How many edges it has made.
     made: u64,
-}
-
-fn map(parent: &LoroMap, key: &str) -> Result<LoroMap> {
-    match parent.get(key) {
-        Some(ValueOrContainer::Container(container)) => {
-            container.into_map().ok().ok_or_else(|| LoroGraphError::Layout(key.into()))
-        }
-        _ => Err(LoroGraphError::Layout(key.into())),
-    }
-}
-
-fn text(parent: &LoroMap, key: &str) -> Result<String> {
-    match parent.get(key) {
-        Some(ValueOrContainer::Value(LoroValue::String(text))) => Ok(text.to_string()),
-        _ => Err(LoroGraphError::Layout(key.into())),
-    }
-}
-
-fn keys(map: &LoroMap) -> Vec<String> {
-    let mut keys: Vec<String> = map.keys().map(|key| key.to_string()).collect();
-    keys.sort_unstable();
-    keys
-}
-
-fn attributes(element: &LoroMap) -> Result<Attributes> {
-    let held = map(element, "attributes")?;
-    keys(&held).into_iter().map(|name| Ok((name.clone(), of_text(&text(&held, &name)?)?))).collect()
-}
-
-fn fill(element: &LoroMap, attributes: &Attributes) -> Result<()> {
-    let map = element.insert_container("attributes", LoroMap::new())?;
-    for (name, value) in attributes {
-        map.insert(name, to_text(value)?)?;
-    }
-    Ok(())
-}
-
-fn edge(element: &LoroMap) -> Result<EdgeName> {
-    Ok(EdgeName { from: text(element, "from")?, label: text(element, "label")?, to: text(element, "to")? })
-}
-
-/// Opens the document of a replica, with the first change in it.
-fn open(identity: Identity) -> Result<LoroDoc> {
-    let genesis = LoroDoc::new();
-    genesis.set_peer_id(Identity { position: 0, incarnation: 0 }.number())?;
-    let tree = genesis.get_tree("kinematic");
-    tree.disable_fractional_index();
-    let node = tree.create(TreeParentId::Root)?;
-    let meta = tree.get_meta(node)?;
-    meta.insert("vertex", ROOT)?;
-    fill(&meta, &Attributes::new())?;
-    genesis.get_map("vertices").insert(ROOT, node.to_string())?;
-    genesis.commit();
-    let document = LoroDoc::new();
-    document.set_peer_id(identity.number())?;
-    document.get_tree("kinematic").disable_fractional_index();
-    document.import(&genesis.export(ExportMode::all_updates())?)?;
-    Ok(document)
 }
 
 impl LoroGraph {
@@ -160,107 +86,6 @@ impl LoroGraph {
         let vertices = self.map("vertices");
         let there = vertices.get(parent).is_some() && vertices.get(child).is_some();
         Ok(there && self.shown(&register(&edge, &self.dictionary))?.is_some())
-    }
-
-    fn edit(&mut self, edit: &Edit) -> Result<()> {
-        match edit {
-            Edit::AddVertex { handle, vertex_type, name, attributes, link, link_attributes } => {
-                if link.label != RT {
-                    self.claim(link, link_attributes)?;
-                }
-                let node = self.tree().create(TreeParentId::Root)?;
-                self.map("vertices").insert(handle, node.to_string())?;
-                let meta = self.tree().get_meta(node)?;
-                for (key, part) in [("vertex", handle), ("type", vertex_type), ("name", name)] {
-                    meta.insert(key, part.as_str())?;
-                }
-                fill(&meta, attributes)?;
-                if link.label == RT { self.claim(link, link_attributes) } else { Ok(()) }
-            }
-            Edit::AddEdge { edge, attributes } => self.claim(edge, attributes),
-            Edit::Update { target, updates } => {
-                let map = self.attributes_of(target)?;
-                for (name, value) in updates {
-                    match value {
-                        Some(value) => map.insert(name, to_text(value)?)?,
-                        None => map.delete(name)?,
-                    }
-                }
-                Ok(())
-            }
-            Edit::RemoveEdge { edge } => self.free(edge),
-            Edit::MoveEdge { old, new, attributes } => {
-                let is_one_child = old.label == RT && new.label == RT && old.to == new.to;
-                let is_one_register = register(old, &self.dictionary) == register(new, &self.dictionary);
-                self.claim(new, attributes)?;
-                if is_one_child || is_one_register { Ok(()) } else { self.free(old) }
-            }
-            Edit::RemoveVertex { handle } => Ok(self.map("vertices").delete(handle)?),
-        }
-    }
-
-    /// Deletes the edges that `competes` picks.
-    fn delete_edges(&self, competes: impl Fn(&EdgeName) -> bool) -> Result<()> {
-        let edges = self.map("edges");
-        for id in keys(&edges) {
-            if competes(&edge(&map(&edges, &id)?)?) {
-                edges.delete(&id)?;
-            }
-        }
-        Ok(())
-    }
-
-    fn claim(&mut self, edge: &EdgeName, attributes: &Attributes) -> Result<()> {
-        if edge.label == RT {
-            self.place(&edge.to, &edge.from)?;
-        }
-        let key = register(edge, &self.dictionary);
-        self.made += 1;
-        let id = format!("{}.{}", self.identity.number(), self.made);
-        self.map("shown").insert(&key, id.as_str())?;
-        self.delete_edges(|held| register(held, &self.dictionary) == key)?;
-        let held = self.map("edges").insert_container(&id, LoroMap::new())?;
-        for (key, part) in [("from", &edge.from), ("label", &edge.label), ("to", &edge.to)] {
-            held.insert(key, part.as_str())?;
-        }
-        fill(&held, attributes)
-    }
-
-    fn free(&self, edge: &EdgeName) -> Result<()> {
-        let key = register(edge, &self.dictionary);
-        self.delete_edges(|held| {
-            if edge.label == RT {
-                held.label == RT && held.to == edge.to
-            } else {
-                register(held, &self.dictionary) == key
-            }
-        })
-    }
-
-    /// Moves a vertex's node below its parent's.
-    fn place(&self, child: &str, parent: &str) -> Result<()> {
-        let tree = self.tree();
-        let target = self.node(parent)?;
-        let (mut node, mut vertex) = (target, parent.to_owned());
-        while let Some((above, handle)) = self.above(node)? {
-            if !self.is_linked(&handle, &vertex)? {
-                tree.mov(node, TreeParentId::Root)?;
-                break;
-            }
-            (node, vertex) = (above, handle);
-        }
-        Ok(tree.mov(self.node(child)?, TreeParentId::Node(target))?)
-    }
-
-    fn attributes_of(&self, target: &Target) -> Result<LoroMap> {
-        let element = match target {
-            Target::Vertex(handle) => self.tree().get_meta(self.node(handle)?)?,
-            Target::Edge(edge) => {
-                let key = register(edge, &self.dictionary);
-                self.shown(&key)?.ok_or_else(|| LoroGraphError::Layout(key))?
-            }
-        };
-        map(&element, "attributes")
     }
 }
 

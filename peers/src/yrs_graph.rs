@@ -19,35 +19,19 @@
 //! **Reading** takes the entries that yrs shows. Of concurrent inserts under one key that is the one of the greatest
 //! client; the others are gone for good.
 
-use crate::edit::{Edit, Target};
-use crate::graph::{Attributes, Graph, Vertex};
-use crate::replica::{Identity, Message, Replica, of_text, register, to_text};
-use dsr_conformance::protocol::{EdgeName, Implementation, ROOT};
-use dsr_core::{Dictionary, RT};
+mod layout;
+mod write;
+
+pub use layout::YrsGraphError;
+
+use crate::edit::Edit;
+use crate::graph::Graph;
+use crate::replica::{Identity, Message, Replica};
+use dsr_conformance::protocol::Implementation;
+use dsr_core::Dictionary;
+use layout::{Result, Roots};
 use yrs::updates::decoder::Decode;
-use yrs::{
-    Any, ClientID, Doc, Map, MapPrelim, MapRef, Options, Out, ReadTxn, StateVector, Transact, TransactionMut,
-    Update, merge_updates_v1,
-};
-
-/// What goes wrong.
-#[derive(Debug, thiserror::Error)]
-pub enum YrsGraphError {
-    /// Bytes are no update.
-    #[error("not an update: {0}")]
-    Decode(#[from] yrs::encoding::read::Error),
-    /// An update cannot be applied.
-    #[error(transparent)]
-    Update(#[from] yrs::error::UpdateError),
-    /// A text is no value.
-    #[error("not a value: {0}")]
-    Value(#[from] serde_json::Error),
-    /// The document is not as this module lays it out.
-    #[error("{0:?} is not where it should be in the document")]
-    Layout(String),
-}
-
-type Result<T> = std::result::Result<T, YrsGraphError>;
+use yrs::{ClientID, Doc, Options, ReadTxn, StateVector, Transact, Update, merge_updates_v1};
 
 /// A replica in yrs.
 #[derive(Debug)]
@@ -56,180 +40,6 @@ pub struct YrsGraph {
     roots: Roots,
     dictionary: Dictionary,
     identity: Identity,
-}
-
-#[derive(Clone, Debug)]
-struct Roots {
-    vertices: MapRef,
-    edges: MapRef,
-    root: MapRef,
-}
-
-fn map(parent: &MapRef, transaction: &impl ReadTxn, key: &str) -> Result<MapRef> {
-    match parent.get(transaction, key) {
-        Some(Out::YMap(map)) => Ok(map),
-        _ => Err(YrsGraphError::Layout(key.into())),
-    }
-}
-
-fn text(parent: &MapRef, transaction: &impl ReadTxn, key: &str) -> Result<String> {
-    match parent.get(transaction, key) {
-        Some(Out::Any(Any::String(text))) => Ok(text.to_string()),
-        _ => Err(YrsGraphError::Layout(key.into())),
-    }
-}
-
-fn keys(map: &MapRef, transaction: &impl ReadTxn) -> Vec<String> {
-    let mut keys: Vec<String> = map.keys(transaction).map(String::from).collect();
-    keys.sort_unstable();
-    keys
-}
-
-fn attributes(element: &MapRef, transaction: &impl ReadTxn) -> Result<Attributes> {
-    let names = keys(element, transaction).into_iter();
-    names.map(|name| Ok((name.clone(), of_text(&text(element, transaction, &name)?)?))).collect()
-}
-
-fn edge(element: &MapRef, transaction: &impl ReadTxn) -> Result<EdgeName> {
-    let part = |key| text(element, transaction, key);
-    Ok(EdgeName { from: part("from")?, label: part("label")?, to: part("to")? })
-}
-
-fn fill(element: &MapRef, transaction: &mut TransactionMut<'_>, attributes: &Attributes) -> Result<()> {
-    let map = element.insert(transaction, "attributes", MapPrelim::default());
-    for (name, value) in attributes {
-        map.insert(transaction, name.as_str(), to_text(value)?);
-    }
-    Ok(())
-}
-
-impl Roots {
-    fn of(document: &Doc) -> Self {
-        Self {
-            vertices: document.get_or_insert_map("vertices"),
-            edges: document.get_or_insert_map("edges"),
-            root: document.get_or_insert_map("root"),
-        }
-    }
-
-    fn read(&self, transaction: &impl ReadTxn) -> Result<Graph> {
-        let mut graph = Graph { root: attributes(&self.root, transaction)?, ..Graph::default() };
-        let mut claims = Vec::new();
-        for handle in keys(&self.vertices, transaction) {
-            let held = map(&self.vertices, transaction, &handle)?;
-            let vertex = Vertex {
-                vertex_type: text(&held, transaction, "type")?,
-                name: text(&held, transaction, "name")?,
-                attributes: attributes(&map(&held, transaction, "attributes")?, transaction)?,
-            };
-            if held.contains_key(transaction, "parent") {
-                claims.push(map(&held, transaction, "parent")?);
-            }
-            graph.vertices.insert(handle, vertex);
-        }
-        for key in keys(&self.edges, transaction) {
-            claims.push(map(&self.edges, transaction, &key)?);
-        }
-        for claim in claims {
-            let held = attributes(&map(&claim, transaction, "attributes")?, transaction)?;
-            graph.show(edge(&claim, transaction)?, held);
-        }
-        Ok(graph)
-    }
-
-    /// Where the register of an edge is.
-    fn place(
-        &self,
-        transaction: &impl ReadTxn,
-        edge: &EdgeName,
-        dictionary: &Dictionary,
-    ) -> Result<(MapRef, String)> {
-        if edge.label == RT {
-            Ok((map(&self.vertices, transaction, &edge.to)?, "parent".into()))
-        } else {
-            Ok((self.edges.clone(), register(edge, dictionary)))
-        }
-    }
-
-    fn attributes_of(
-        &self,
-        transaction: &impl ReadTxn,
-        target: &Target,
-        dictionary: &Dictionary,
-    ) -> Result<MapRef> {
-        match target {
-            Target::Vertex(handle) if handle == ROOT => Ok(self.root.clone()),
-            Target::Vertex(handle) => {
-                map(&map(&self.vertices, transaction, handle)?, transaction, "attributes")
-            }
-            Target::Edge(edge) => {
-                let (holder, key) = self.place(transaction, edge, dictionary)?;
-                map(&map(&holder, transaction, &key)?, transaction, "attributes")
-            }
-        }
-    }
-
-    fn edit(&self, transaction: &mut TransactionMut<'_>, edit: &Edit, dictionary: &Dictionary) -> Result<()> {
-        match edit {
-            Edit::AddVertex { handle, vertex_type, name, attributes, link, link_attributes } => {
-                let vertex = self.vertices.insert(transaction, handle.as_str(), MapPrelim::default());
-                vertex.insert(transaction, "type", vertex_type.as_str());
-                vertex.insert(transaction, "name", name.as_str());
-                fill(&vertex, transaction, attributes)?;
-                self.claim(transaction, link, link_attributes, dictionary)
-            }
-            Edit::AddEdge { edge, attributes } => self.claim(transaction, edge, attributes, dictionary),
-            Edit::Update { target, updates } => {
-                let map = self.attributes_of(transaction, target, dictionary)?;
-                for (name, value) in updates {
-                    match value {
-                        Some(value) => {
-                            map.insert(transaction, name.as_str(), to_text(value)?);
-                        }
-                        None => {
-                            map.remove(transaction, name);
-                        }
-                    }
-                }
-                Ok(())
-            }
-            Edit::RemoveEdge { edge } => self.free(transaction, edge, dictionary),
-            Edit::MoveEdge { old, new, attributes } => {
-                self.free(transaction, old, dictionary)?;
-                self.claim(transaction, new, attributes, dictionary)
-            }
-            Edit::RemoveVertex { handle } => {
-                self.vertices.remove(transaction, handle);
-                Ok(())
-            }
-        }
-    }
-
-    fn claim(
-        &self,
-        transaction: &mut TransactionMut<'_>,
-        edge: &EdgeName,
-        attributes: &Attributes,
-        dictionary: &Dictionary,
-    ) -> Result<()> {
-        let (holder, key) = self.place(transaction, edge, dictionary)?;
-        let held = holder.insert(transaction, key, MapPrelim::default());
-        for (key, part) in [("from", &edge.from), ("label", &edge.label), ("to", &edge.to)] {
-            held.insert(transaction, key, part.as_str());
-        }
-        fill(&held, transaction, attributes)
-    }
-
-    fn free(
-        &self,
-        transaction: &mut TransactionMut<'_>,
-        edge: &EdgeName,
-        dictionary: &Dictionary,
-    ) -> Result<()> {
-        let (holder, key) = self.place(transaction, edge, dictionary)?;
-        holder.remove(transaction, &key);
-        Ok(())
-    }
 }
 
 impl YrsGraph {
