@@ -7,12 +7,15 @@ mod common;
 use common::Dice;
 use dsr_conformance::adapter::Adapter;
 use dsr_conformance::protocol::{
-    AnswerFor, CaseBegin, Decline, Deliver, EdgeName, ErrorCode, Group, Link, Mutate, Mutation, ROOT, Read,
-    Restart, Unique, View,
+    AnswerFor, CaseBegin, Decline, Deliver, EdgeName, ErrorCode, Group, Implementation, Link, Mutate,
+    Mutation, ROOT, Read, Restart, Unique, View,
 };
 use dsr_conformance::run::broken;
 use dsr_core::{Dictionary, RT};
-use dsr_peers::replica::Replica;
+use dsr_peers::edit::Edit;
+use dsr_peers::graph::Graph;
+use dsr_peers::replica::{Identity, Message, Replica};
+use dsr_peers::yrs_graph::YrsGraphError;
 use dsr_peers::{AutomergeGraph, LoroGraph, Peer, YrsGraph};
 use std::collections::BTreeMap;
 
@@ -142,18 +145,30 @@ impl<R: Replica> Walk<R> {
         }
     }
 
-    /// Everybody gets everything; then all must show the same.
-    fn settle(&mut self) {
+    /// Everybody gets everything; then all must show the same. Says who does not.
+    fn settle(&mut self) -> Result<(), &'static str> {
         for replica in REPLICAS {
             for delta in self.deltas.clone() {
                 self.deliver(replica, delta);
             }
         }
         let first = self.view(REPLICAS[0]);
-        for replica in REPLICAS {
-            assert_eq!(self.view(replica), first, "{replica}, after every delta");
-        }
+        REPLICAS.into_iter().try_for_each(
+            |replica| {
+                if self.view(replica) == first { Ok(()) } else { Err(replica) }
+            },
+        )
     }
+}
+
+/// A whole walk, up to where everybody has everything.
+fn walked<R: Replica>(seed: u64) -> (Walk<R>, Result<(), &'static str>) {
+    let mut walk = Walk::<R>::new(seed);
+    for step in 0..STEPS {
+        walk.step(step);
+    }
+    let settled = walk.settle();
+    (walk, settled)
 }
 
 /// Every other time, a vertex for another parent.
@@ -185,11 +200,8 @@ fn walks<R: Replica>(breaks: &[&str]) {
     let mut all = BTreeMap::new();
     for seed in 0..SEEDS {
         println!("seed {seed}");
-        let mut walk = Walk::<R>::new(seed);
-        for step in 0..STEPS {
-            walk.step(step);
-        }
-        walk.settle();
+        let (walk, settled) = walked::<R>(seed);
+        assert_eq!(settled, Ok(()), "after every delta");
         for (clause, count) in walk.broken {
             *all.entry(clause).or_insert(0) += count;
         }
@@ -211,4 +223,53 @@ fn law_loro_converges() {
 #[test]
 fn law_yrs_converges() {
     walks::<YrsGraph>(&["INV-1", "INV-3"]);
+}
+
+/// yrs, but the third replica misses its third message.
+struct Deaf {
+    inner: YrsGraph,
+    identity: Identity,
+    heard: usize,
+}
+
+impl Replica for Deaf {
+    type Error = YrsGraphError;
+
+    fn implementation() -> Implementation {
+        YrsGraph::implementation()
+    }
+
+    fn new(identity: Identity, dictionary: &Dictionary) -> Result<Self, YrsGraphError> {
+        Ok(Self { inner: YrsGraph::new(identity, dictionary)?, identity, heard: 0 })
+    }
+
+    fn graph(&self) -> Result<Graph, YrsGraphError> {
+        self.inner.graph()
+    }
+
+    fn trial(&self) -> Result<Self, YrsGraphError> {
+        Ok(Self { inner: self.inner.trial()?, ..*self })
+    }
+
+    fn write(&mut self, edits: &[Edit]) -> Result<Message, YrsGraphError> {
+        self.inner.write(edits)
+    }
+
+    fn deliver(&mut self, message: &Message) -> Result<(), YrsGraphError> {
+        self.heard += 1;
+        if self.identity.position == 3 && self.heard == 3 { Ok(()) } else { self.inner.deliver(message) }
+    }
+
+    fn missing(&self, other: &Self) -> Result<Message, YrsGraphError> {
+        self.inner.missing(&other.inner)
+    }
+
+    fn restart(&mut self, identity: Identity, keeps: bool) -> Result<(), YrsGraphError> {
+        self.inner.restart(identity, keeps)
+    }
+}
+
+#[test]
+fn canary_a_replica_that_misses_a_message_is_found() {
+    assert!((0..SEEDS).any(|seed| walked::<Deaf>(seed).1 == Err("c")));
 }
