@@ -8,6 +8,7 @@ use dsr_core::{Dictionary, Mutation, ReplicaId};
 use dsr_model::gallery::{Row, Twin, mutations_before, rows, run_row};
 use dsr_model::trace::{Act, Sent};
 use serde::Deserialize;
+use std::collections::BTreeSet;
 
 /// Rows without a case, and why.
 pub const LEFT_OUT: [(&str, &str); 0] = [];
@@ -95,7 +96,7 @@ fn written(row: &Row, twin: &Twin) -> Result<Written, CannotWrite> {
             builder.deliver(place(name), "s")?;
         }
     }
-    let mut resynchronises = false;
+    let (mut resynchronises, mut heard, mut made) = (false, BTreeSet::new(), Vec::new());
     for step in &twin.trace.steps {
         let at = place(&step.replica);
         match &step.does {
@@ -103,8 +104,13 @@ fn written(row: &Row, twin: &Twin) -> Result<Written, CannotWrite> {
                 let mutations: Result<Vec<Mutation>, _> =
                     mutations.iter().map(Mutation::deserialize).collect();
                 builder.mutate(at, &mutations.unwrap_or_default(), name(sends))?;
+                made.push(name(sends));
+                heard.insert((at, name(sends)));
             }
-            Act::Deliver { message, .. } => builder.deliver(at, message)?,
+            Act::Deliver { message, .. } => {
+                builder.deliver(at, message)?;
+                heard.insert((at, message.as_str()));
+            }
             Act::Restart { keeps } => {
                 builder.restart(at, *keeps)?;
                 let joins = joiner.is_some_and(|joiner| names.get(joiner) == Some(&step.replica.as_str()));
@@ -119,7 +125,14 @@ fn written(row: &Row, twin: &Twin) -> Result<Written, CannotWrite> {
             Act::Lose { .. } | Act::Happen { .. } => {}
         }
     }
-    Ok(Written { builder, all: (0..ids.len()).collect(), resynchronises })
+    // The schedule leaves out what would change nothing at the core. Others may wait for it.
+    let all: Vec<_> = (0..ids.len()).collect();
+    for &at in all.iter().filter(|_| !resynchronises) {
+        for delta in made.iter().filter(|delta| !heard.contains(&(at, *delta))) {
+            builder.deliver(at, delta)?;
+        }
+    }
+    Ok(Written { builder, all, resynchronises })
 }
 
 fn name(sends: &[Sent]) -> &str {
