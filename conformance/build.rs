@@ -22,7 +22,7 @@ fn main() -> io::Result<()> {
     for path in &paths {
         let name = path.strip_prefix(&folder).map_err(io::Error::other)?;
         let parts: Vec<_> = name.iter().map(|part| part.to_string_lossy()).collect();
-        let line = format!("    ({:?}, include_str!({path:?})),\n", parts.join("/"));
+        let line = format!("    ({:?}, include_str!({:?})),\n", parts.join("/"), path.to_string_lossy());
         text.write_str(&line).map_err(io::Error::other)?;
     }
     text.push_str("]\n");

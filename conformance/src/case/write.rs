@@ -107,8 +107,6 @@ impl Formatter for Lines {
 
 #[cfg(test)]
 mod tests {
-    #![expect(clippy::unwrap_used, reason = "a test that cannot go on says where")]
-
     use super::write;
     use crate::case::read;
     use crate::corpus::FILES;
