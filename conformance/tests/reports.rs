@@ -1,7 +1,5 @@
 //! Diagrams, explanations and reports.
 
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on says where")]
-
 use dsr_conformance::case::Level;
 use dsr_conformance::corpus;
 use dsr_conformance::log::{CaseLine, Footer, Header, Log};
