@@ -22,12 +22,12 @@ fn law_the_canonical_form_is_one_and_means_the_same() {
 }
 
 /// What is done to files, ids and manifest.
-type Change = dyn Fn(&mut Vec<(String, String)>, &mut String, &mut String);
+type Change<'c> = dyn Fn(&mut Vec<(String, String)>, &mut String, &mut String) + 'c;
 
 /// `[spec: CONF-15]`
 #[test]
 fn canary_each_disorder_is_told() {
-    let tells = |change: &Change, piece: &str| {
+    let tells = |change: &Change<'_>, piece: &str| {
         let mut files: Vec<(String, String)> =
             corpus::FILES.iter().map(|(path, text)| ((*path).into(), (*text).into())).collect();
         let (mut ids, mut listed) = (corpus::IDS.to_owned(), corpus::MANIFEST.to_owned());
