@@ -1,5 +1,7 @@
 //! What is around a run: logs, expectations, reports, explanations, the corpus's form.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on says where")]
+
 mod common;
 
 use common::{Run, dsr};
@@ -62,7 +64,8 @@ fn law_a_log_becomes_every_report_and_can_be_compared() {
     assert!(worse.out.contains("worse  universal/delivery/"), "{worse:?}");
     assert_eq!(dsr(&["conform", "compare", other.to_str().unwrap(), log]).status, 0);
     let cut = folder.join("cut.ndjson");
-    std::fs::write(&cut, &text(&path)[..2000]).unwrap();
+    let whole = text(&path);
+    std::fs::write(&cut, &whole[..whole.len() - 30]).unwrap();
     let report = dsr(&["conform", "report", cut.to_str().unwrap(), "--to", "markdown"]);
     assert_eq!(report.status, 2);
     assert!(report.err.contains("incomplete: its last line is cut off"), "{report:?}");
@@ -154,10 +157,10 @@ fn law_a_first_look_tells_a_broken_adapter_from_a_sound_one() {
 
 #[test]
 fn law_lists_are_chosen_by_clause_and_profile() {
-    let json = dsr(&["conform", "list", "--clause", "JOIN-2", "--format", "json"]);
+    let json = dsr(&["conform", "list", "--clause", "JOIN-3", "--format", "json"]);
     let listed: Vec<serde_json::Value> = serde_json::from_str(&json.out).unwrap();
     assert!(!listed.is_empty());
-    assert!(listed.iter().all(|case| case["clauses"].as_array().unwrap().contains(&"JOIN-2".into())));
+    assert!(listed.iter().all(|case| case["clauses"].as_array().unwrap().contains(&"JOIN-3".into())));
     assert!(dsr(&["conform", "list", "--clause", "JOIN-999"]).err.contains("there is no clause"));
     let observe = dsr(&["conform", "list", "--profile", "observe"]).out;
     assert!(

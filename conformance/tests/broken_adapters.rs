@@ -10,8 +10,7 @@ use std::time::{Duration, Instant};
 
 fn program(arguments: &[&str]) -> Program {
     let command = std::iter::once(env!("CARGO_BIN_EXE_conform-broken")).chain(arguments.iter().copied());
-    let hangs =
-        matches!(arguments, ["hangs" | "deaf" | "too-slow" | "grandchild" | "closes", ..] | ["silent"]);
+    let hangs = matches!(arguments, ["hangs" | "deaf" | "too-slow" | "grandchild", ..] | ["silent"]);
     let limits =
         ChildLimits { reply: Duration::from_secs(if hangs { 3 } else { 60 }), ..ChildLimits::default() };
     Program { command: command.map(String::from).collect(), limits }

@@ -30,7 +30,7 @@ pub(super) struct Arguments {
 enum Form {
     /// A page that needs nothing else, an implementation a column
     Html,
-    /// JUnit XML, with clauses as properties
+    /// `JUnit` XML, with clauses as properties
     Junit,
     /// Tables by family and clause, and each failure
     Markdown,

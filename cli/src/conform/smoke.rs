@@ -125,9 +125,8 @@ impl Watch for Stages<'_> {
         }
         let line = CaseLine::of(result, None);
         let case = self.cases.iter().find(|case| case.id == result.id);
-        out(&failure(&line, case, self.command)
-            .lines()
-            .map(|line| format!("  {line}\n"))
-            .collect::<String>());
+        for line in failure(&line, case, self.command).lines() {
+            out(&format!("  {line}\n"));
+        }
     }
 }

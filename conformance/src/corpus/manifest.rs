@@ -2,6 +2,7 @@
 
 use super::{SPEC_VERSION, VERSION};
 use crate::case::CaseFile;
+use crate::protocol::Hex;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet};
@@ -28,7 +29,7 @@ pub fn manifest(files: &[(&str, &str, &CaseFile)]) -> Result<String, serde_json:
     let mut entries = Vec::new();
     for (path, text, file) in files {
         *families.entry(file.family.clone()).or_default() += file.cases.len();
-        let sha256 = Sha256::digest(text).iter().map(|byte| format!("{byte:02x}")).collect();
+        let sha256 = Hex(Sha256::digest(text).to_vec()).to_string();
         entries.push(Entry { path: (*path).into(), cases: file.cases.len(), sha256 });
     }
     let manifest = Manifest { format: 1, corpus: VERSION, spec: SPEC_VERSION, families, files: entries };

@@ -50,17 +50,17 @@ pub fn diagram(case: &Case, failed: Option<usize>) -> String {
         {
             senders.insert(name, from);
         }
-        let marks: String = marks.iter().collect();
-        let mark = if failed == Some(number) { '✗' } else { ' ' };
-        let beside = WIDTH.saturating_sub(6 + marks.chars().count()).max(30);
-        for (line, at) in wrap(&words(step), beside).iter().zip(0..) {
-            let quiet: String = (0..case.replicas.len()).map(|_| format!("{:<pitch$}", '│')).collect();
-            let line = if at == 0 {
-                format!("{mark}{number:>3}  {marks}{line}")
+        let drawn: String = marks.iter().collect();
+        let fault_sign = if failed == Some(number) { '✗' } else { ' ' };
+        let beside = WIDTH.saturating_sub(6 + drawn.chars().count()).max(30);
+        for (piece, at) in wrap(&words(step), beside).iter().zip(0..) {
+            let quiet = format!("{:<pitch$}", '│').repeat(case.replicas.len());
+            let row = if at == 0 {
+                format!("{fault_sign}{number:>3}  {drawn}{piece}")
             } else {
-                format!("      {quiet}  {line}")
+                format!("      {quiet}  {piece}")
             };
-            let _ = writeln!(text, "{}", line.trim_end());
+            let _ = writeln!(text, "{}", row.trim_end());
         }
     }
     text

@@ -110,9 +110,9 @@ fn one(page: &mut String, id: &str, logs: &[Named], case: Option<&Case>) {
     let is_fine = lines.iter().all(|(_, line)| line.verdict == crate::report::Verdict::Pass);
     let verdicts: BTreeSet<&str> = lines.iter().map(|(_, line)| line.verdict.name()).collect();
     let class = if is_fine { "fine" } else { "notable" };
-    let _ = write!(
+    let _ = writeln!(
         page,
-        "<details class=\"{class}\" id=\"{}\"><summary><code>{}</code> {}</summary>\n",
+        "<details class=\"{class}\" id=\"{}\"><summary><code>{}</code> {}</summary>",
         anchor(id),
         markup(id),
         markup(&verdicts.into_iter().collect::<Vec<_>>().join(", "))

@@ -2,7 +2,7 @@
 
 use crate::log::{CaseLine, Log};
 use dsr_spec::ClauseId;
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 /// A log with the name that reports give it.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -71,16 +71,16 @@ impl Tally {
 
 /// The clauses that cases cite, as people count.
 pub(super) fn clauses<'l>(cases: impl IntoIterator<Item = &'l CaseLine>) -> Vec<String> {
-    let mut found: BTreeMap<(bool, Option<ClauseId>, String), ()> = BTreeMap::new();
+    let mut found: BTreeSet<(bool, Option<ClauseId>, String)> = BTreeSet::new();
     for clause in cases.into_iter().flat_map(|case| &case.clauses) {
         let id: Option<ClauseId> = clause.parse().ok();
-        found.insert((id.is_none(), id, clause.clone()), ());
+        found.insert((id.is_none(), id, clause.clone()));
     }
-    found.into_keys().map(|(_, _, clause)| clause).collect()
+    found.into_iter().map(|(_, _, clause)| clause).collect()
 }
 
 /// The families of some cases, in order.
 pub(super) fn families<'l>(cases: impl IntoIterator<Item = &'l CaseLine>) -> Vec<String> {
-    let names: std::collections::BTreeSet<&str> = cases.into_iter().map(CaseLine::family).collect();
+    let names: BTreeSet<&str> = cases.into_iter().map(CaseLine::family).collect();
     names.into_iter().map(String::from).collect()
 }
