@@ -3,7 +3,7 @@
 use super::error::{ConformError, read};
 use crate::output::{err, out};
 use crate::status::Status;
-use dsr_conformance::render::{Named, badge, html, junit, markdown};
+use dsr_conformance::render::{Named, badge, html, junit, markdown, matrix};
 use dsr_conformance::{corpus, log};
 use std::path::PathBuf;
 
@@ -34,6 +34,8 @@ enum Form {
     Junit,
     /// Tables by family and clause, and each failure
     Markdown,
+    /// Tables of what each implementation keeps, with the shortest failing case behind each cell
+    Matrix,
     /// JSON for shields.io; takes one log
     Badge,
 }
@@ -46,6 +48,7 @@ impl Arguments {
             (Form::Html, logs) => out(&html(logs, &corpus::cases()?)),
             (Form::Junit, logs) => out(&junit(logs)),
             (Form::Markdown, logs) => out(&markdown(logs, &corpus::cases()?)),
+            (Form::Matrix, logs) => out(&matrix(logs, &corpus::cases()?)),
             (Form::Badge, [one]) => out(&badge(one)),
             (Form::Badge, logs) => {
                 let what = format!("a badge is of one log, not of {}\n  remedy: write one each", logs.len());
