@@ -42,6 +42,7 @@ pub struct AutomergeGraph {
 
 impl Replica for AutomergeGraph {
     type Error = AutomergeGraphError;
+    type Update = Vec<u8>;
 
     fn implementation() -> Implementation {
         Implementation {

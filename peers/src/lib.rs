@@ -22,6 +22,7 @@
 //! | [`graph`], [`check`], [`edit`], [`refusal`] | what is shown; the conditions of mutations; what is written |
 //! | [`replica`], [`peer`] | what a mapping provides; the adapter over it |
 //! | [`automerge_graph`], [`loro_graph`], [`yrs_graph`] | the mappings |
+//! | [`published_graph`] | the published system, as the checker has it |
 
 #![forbid(unsafe_code)]
 
@@ -31,6 +32,7 @@ pub mod edit;
 pub mod graph;
 pub mod loro_graph;
 pub mod peer;
+pub mod published_graph;
 pub mod refusal;
 pub mod replica;
 pub mod yrs_graph;
@@ -38,4 +40,5 @@ pub mod yrs_graph;
 pub use automerge_graph::AutomergeGraph;
 pub use loro_graph::LoroGraph;
 pub use peer::Peer;
+pub use published_graph::PublishedGraph;
 pub use yrs_graph::YrsGraph;

@@ -91,6 +91,7 @@ impl LoroGraph {
 
 impl Replica for LoroGraph {
     type Error = LoroGraphError;
+    type Update = Vec<u8>;
 
     fn implementation() -> Implementation {
         Implementation {

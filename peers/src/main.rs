@@ -3,7 +3,8 @@
 use clap::{Parser, ValueEnum};
 use dsr_conformance::adapter::Adapter;
 use dsr_conformance::serve::serve;
-use dsr_peers::{AutomergeGraph, LoroGraph, Peer, YrsGraph};
+use dsr_peers::published_graph::{Fork, Upstream};
+use dsr_peers::{AutomergeGraph, LoroGraph, Peer, PublishedGraph, YrsGraph};
 use std::io;
 use std::process::ExitCode;
 
@@ -24,6 +25,10 @@ enum Library {
     Automerge,
     /// Loro: a movable tree for the kinematic edges, last-writer-wins maps for the rest.
     Loro,
+    /// The published Deep State Representation, as the checker models it.
+    Published,
+    /// Its fork.
+    PublishedFork,
     /// yrs, the Rust port of Yjs: maps of maps.
     Yrs,
 }
@@ -32,6 +37,8 @@ fn main() -> ExitCode {
     let mut adapter: Box<dyn Adapter> = match Arguments::parse().library {
         Library::Automerge => Box::new(Peer::<AutomergeGraph>::default()),
         Library::Loro => Box::new(Peer::<LoroGraph>::default()),
+        Library::Published => Box::new(Peer::<PublishedGraph<Upstream>>::default()),
+        Library::PublishedFork => Box::new(Peer::<PublishedGraph<Fork>>::default()),
         Library::Yrs => Box::new(Peer::<YrsGraph>::default()),
     };
     match serve(&mut *adapter, io::stdin().lock(), io::stdout().lock()) {

@@ -5,31 +5,24 @@ use crate::edit::Edit;
 use crate::replica::{Identity, Message, Replica};
 use dsr_conformance::adapter::Adapter;
 use dsr_conformance::protocol::{
-    AnswerFor, CaseBegin, Decline, Deliver, ErrorCode, ErrorReply, Feature, Group, Hello, HelloReply,
-    LINE_BYTES_MAX, Limits, MadeDelta, Mutate, Mutation, PROTOCOL, Profile, ROOT, Read, Restart, Shown,
+    AnswerFor, CaseBegin, Decline, Deliver, ErrorCode, ErrorReply, Group, Hello, HelloReply, LINE_BYTES_MAX,
+    Limits, MadeDelta, Mutate, Mutation, PROTOCOL, Profile, ROOT, Read, Restart, Shown,
 };
 use dsr_core::Dictionary;
 use std::collections::{BTreeMap, BTreeSet};
 
 const REPLICAS_MAX: usize = 64;
-const FEATURES: [Feature; 5] = [
-    Feature::Dictionary,
-    Feature::ErrorKinds,
-    Feature::Grouping,
-    Feature::Restart,
-    Feature::Resynchronisation,
-];
 
 /// An adapter for graphs in the documents of a library. Profile `observe`; no `repairs`, since no library here reports
 /// any, and no `lookup`, since none keeps names unique: who scans for a name decides alone what a tie means.
 /// `[spec: CONF-4]`
 #[derive(Debug)]
-pub struct Peer<R> {
+pub struct Peer<R: Replica> {
     dictionary: Dictionary,
     replicas: BTreeMap<String, Member<R>>,
     /// What the harness has named, in whatever replica. `[spec: CONF-5]`
     handles: BTreeSet<String>,
-    messages: Vec<Message>,
+    messages: Vec<Message<R::Update>>,
 }
 
 #[derive(Debug)]
@@ -38,7 +31,7 @@ struct Member<R> {
     replica: R,
 }
 
-impl<R> Default for Peer<R> {
+impl<R: Replica> Default for Peer<R> {
     fn default() -> Self {
         Self {
             dictionary: Dictionary::default(),
@@ -51,6 +44,11 @@ impl<R> Default for Peer<R> {
 
 fn internal(error: impl std::error::Error) -> Decline {
     Decline::error(ErrorCode::Internal, error.to_string())
+}
+
+/// An error of an implementation on writing.
+fn unwritten<R: Replica>(error: R::Error) -> Decline {
+    if R::refuses(&error) { Decline::error(ErrorCode::Refused, error.to_string()) } else { internal(error) }
 }
 
 fn declined(error: CheckError) -> Decline {
@@ -96,12 +94,12 @@ impl<R: Replica> Peer<R> {
         self.replicas.get(name).map(|member| &member.replica).ok_or_else(|| no_replica(name))
     }
 
-    fn keep(&mut self, message: Message) -> MadeDelta {
+    fn keep(&mut self, message: Message<R::Update>) -> MadeDelta {
         self.messages.push(message);
         MadeDelta { delta: format!("d{}", self.messages.len()) }
     }
 
-    fn message(&self, name: &str) -> Result<&Message, Decline> {
+    fn message(&self, name: &str) -> Result<&Message<R::Update>, Decline> {
         let number = name.strip_prefix('d').and_then(|number| number.parse::<usize>().ok());
         let found = number.and_then(|number| self.messages.get(number.checked_sub(1)?));
         found.ok_or_else(|| Decline::error(ErrorCode::Unknown, format!("no delta {name:?} in this case")))
@@ -127,7 +125,7 @@ impl<R: Replica> Peer<R> {
                 return Err(Decline::error(ErrorCode::RejectedInput, message));
             }
             let edit = check(&shown, &self.dictionary, mutation).map_err(declined)?;
-            trial.write(std::slice::from_ref(&edit)).map_err(internal)?;
+            trial.write(std::slice::from_ref(&edit)).map_err(unwritten::<R>)?;
             let after = trial.graph().map_err(internal)?;
             if matches!(edit, Edit::RemoveEdge { .. } | Edit::MoveEdge { .. } | Edit::RemoveVertex { .. }) {
                 strands(&shown, &after).map_err(|refusal| declined(refusal.into()))?;
@@ -150,7 +148,7 @@ impl<R: Replica> Adapter for Peer<R> {
             protocol: PROTOCOL,
             implementation: R::implementation(),
             profiles: vec![Profile::Observe.name().into()],
-            features: FEATURES.iter().map(|feature| feature.name().into()).collect(),
+            features: R::FEATURES.iter().map(|feature| feature.name().into()).collect(),
             limits: Limits { line_bytes: LINE_BYTES_MAX, replicas: REPLICAS_MAX },
         })
     }
@@ -173,7 +171,7 @@ impl<R: Replica> Adapter for Peer<R> {
 
     fn mutate(&mut self, mutate: &Mutate) -> Result<MadeDelta, Decline> {
         let (edits, handles) = self.edits(mutate)?;
-        let message = self.member(&mutate.replica)?.replica.write(&edits).map_err(internal)?;
+        let message = self.member(&mutate.replica)?.replica.write(&edits).map_err(unwritten::<R>)?;
         self.handles = handles;
         Ok(self.keep(message))
     }

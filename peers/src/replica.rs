@@ -2,9 +2,10 @@
 
 use crate::edit::Edit;
 use crate::graph::Graph;
-use dsr_conformance::protocol::{EdgeName, Implementation, Tagged};
+use dsr_conformance::protocol::{EdgeName, Feature, Implementation, Tagged};
 use dsr_core::{Dictionary, RT};
 use std::error::Error;
+use std::fmt::Debug;
 
 /// Which replica of a case, and how often it has restarted: every library gets its actor's id from these two, so that
 /// a case runs alike each time.
@@ -24,13 +25,24 @@ impl Identity {
     }
 }
 
-/// What travels: updates as the library encodes them. A group has several, if the library has no form for their union.
-pub type Message = Vec<Vec<u8>>;
+/// What travels: updates, as the library encodes them if it does. A group has several, if the library has no form for
+/// their union.
+pub type Message<U = Vec<u8>> = Vec<U>;
 
 /// One replica: a document of the library that holds the graph.
 pub trait Replica: Sized {
     /// What can go wrong in the library, or with what is read back from it.
     type Error: Error;
+    /// What travels.
+    type Update: Clone + Debug;
+    /// What it can do beyond the profile `observe`.
+    const FEATURES: &'static [Feature] = &[
+        Feature::Dictionary,
+        Feature::ErrorKinds,
+        Feature::Grouping,
+        Feature::Restart,
+        Feature::Resynchronisation,
+    ];
 
     /// The library.
     fn implementation() -> Implementation;
@@ -41,15 +53,20 @@ pub trait Replica: Sized {
     /// A copy on which a group can be tried.
     fn trial(&self) -> Result<Self, Self::Error>;
     /// Writes a group in one transaction; returns what it is to the others.
-    fn write(&mut self, edits: &[Edit]) -> Result<Message, Self::Error>;
+    fn write(&mut self, edits: &[Edit]) -> Result<Message<Self::Update>, Self::Error>;
     /// Takes what another one has written.
-    fn deliver(&mut self, message: &Message) -> Result<(), Self::Error>;
+    fn deliver(&mut self, message: &Message<Self::Update>) -> Result<(), Self::Error>;
     /// What `other` lacks of this one.
-    fn missing(&self, other: &Self) -> Result<Message, Self::Error>;
+    fn missing(&self, other: &Self) -> Result<Message<Self::Update>, Self::Error>;
     /// Starts anew, under another identity, from what is stored of it; or, if it `keeps` nothing, from nothing.
     fn restart(&mut self, identity: Identity, keeps: bool) -> Result<(), Self::Error>;
+    /// Whether an error is a refusal by the implementation, where the conditions of the specification hold.
+    fn refuses(error: &Self::Error) -> bool {
+        let _ = error;
+        false
+    }
     /// Several messages as one.
-    fn group(messages: &[&Message]) -> Result<Message, Self::Error> {
+    fn group(messages: &[&Message<Self::Update>]) -> Result<Message<Self::Update>, Self::Error> {
         Ok(messages.iter().flat_map(|message| message.iter().cloned()).collect())
     }
 }

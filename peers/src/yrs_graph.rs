@@ -56,6 +56,7 @@ impl YrsGraph {
 
 impl Replica for YrsGraph {
     type Error = YrsGraphError;
+    type Update = Vec<u8>;
 
     fn implementation() -> Implementation {
         Implementation {
