@@ -39,7 +39,11 @@ fn law_every_choice_is_explained_once_and_settled_by_a_case() {
         let texts = [&choice.question, &choice.ours, &choice.others, &choice.every];
         assert!(texts.iter().all(|text| !text.is_empty()), "{}", choice.name);
         for id in &choice.spec {
-            assert!(id.parse().is_ok_and(|id| clauses.get(&id).is_some()), "{}: {id} is no clause", choice.name);
+            assert!(
+                id.parse().is_ok_and(|id| clauses.get(&id).is_some()),
+                "{}: {id} is no clause",
+                choice.name
+            );
         }
     }
     let cases = corpus::cases().unwrap();

@@ -13,8 +13,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 const CHAPTERS: [&str; 20] = [
-    "ID", "CRASH", "VALUE", "CTX", "STATE", "WF", "JOIN", "CLOSE", "STAMP", "DICT", "MUT", "VIEW", "INV", "CONFLICT",
-    "INTENT", "SYNC", "NET", "LIMIT", "ENC", "JSON",
+    "ID", "CRASH", "VALUE", "CTX", "STATE", "WF", "JOIN", "CLOSE", "STAMP", "DICT", "MUT", "VIEW", "INV",
+    "CONFLICT", "INTENT", "SYNC", "NET", "LIMIT", "ENC", "JSON",
 ];
 
 /// Clauses that no case can witness, and why.
@@ -33,7 +33,8 @@ const EXEMPT: &[(&str, &str)] = &[
 const ALONE: &[(&str, &str)] = &[("ENC-7", "one value's bytes")];
 
 /// What two cases are too many for, and why.
-const ONCE: &[(&str, &str)] = &[("LIMIT-3", "a value beyond it does not fit in a line of the protocol; one below it does")];
+const ONCE: &[(&str, &str)] =
+    &[("LIMIT-3", "a value beyond it does not fit in a line of the protocol; one below it does")];
 
 /// Whether two replicas mutate without having seen each other.
 fn is_concurrent(case: &Case) -> bool {
@@ -96,7 +97,11 @@ fn law_every_clause_has_two_cases_and_one_that_is_concurrent() {
         let concurrent = citing.iter().filter(|case| is_concurrent(case)).count();
         let shown: Vec<&str> = citing.iter().take(3).map(|case| case.id.as_str()).collect();
         let more = if citing.len() > 3 { " …" } else { "" };
-        println!("{id:<12} {:>3} cases, {concurrent:>3} concurrent: {}{more}", citing.len(), shown.join(", "));
+        println!(
+            "{id:<12} {:>3} cases, {concurrent:>3} concurrent: {}{more}",
+            citing.len(),
+            shown.join(", ")
+        );
         let fault = if listed(EXEMPT, &clause.id) {
             (!citing.is_empty()).then_some("is exempt and has a case: strike it off EXEMPT")
         } else if listed(ONCE, &clause.id) {
@@ -104,7 +109,8 @@ fn law_every_clause_has_two_cases_and_one_that_is_concurrent() {
         } else if citing.len() < 2 {
             Some("has fewer than two cases")
         } else if listed(ALONE, &clause.id) {
-            (concurrent > 0).then_some("is said to be of one text and has a concurrent case: strike it off ALONE")
+            (concurrent > 0)
+                .then_some("is said to be of one text and has a concurrent case: strike it off ALONE")
         } else {
             (concurrent == 0).then_some("has no concurrent case")
         };
