@@ -17,6 +17,10 @@ pub const SPEC_VERSION: &str = "0.1";
 /// Each file of the corpus, in order: its path, and its text.
 pub const FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/files.rs"));
 
+/// What the specification chooses where it could have chosen otherwise, as JSON: the `choice` of a case is the name of
+/// one. `[spec: CONF-11]`
+pub const CHOICES: &str = include_str!("../corpus/v1/choices.json");
+
 /// Every case, in the order of files and within them.
 pub fn cases() -> Result<Vec<Case>, CaseError> {
     let files = FILES.iter().map(|(path, text)| read(path, text));
