@@ -8,12 +8,16 @@ mod flawed;
 pub use flawed::Flawed;
 
 use crate::adapter::CoreAdapter;
-use crate::case::Case;
+use crate::case::{Case, Step};
 use crate::report::{Report, Verdict};
 use crate::run::{InProcess, run};
+use dsr_core::{CausalContext, State, decode, decode_digest};
 use dsr_model::alarms::{Alarm, all};
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+
+/// Up to which sequence the broken cores are asked.
+const NEAR: u64 = 10_000;
 
 /// What the corpus finds of one broken core.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, JsonSchema)]
@@ -60,10 +64,28 @@ pub fn run_broken(alarm: &Alarm, cases: &[Case]) -> Report {
     run(&mut InProcess(|| CoreAdapter::of(Flawed(alarm.clone()))), cases)
 }
 
-/// Runs every broken core on cases.
+/// Runs every broken core on cases. Some of them count dots one by one: cases that name far ones are left out.
 pub fn score(cases: &[Case]) -> Scores {
-    let cores: Vec<_> = broken_cores().map(|alarm| of(&alarm, cases)).collect();
+    let cases: Vec<Case> = cases.iter().filter(|case| !names_far_dots(case)).cloned().collect();
+    let cores: Vec<_> = broken_cores().map(|alarm| of(&alarm, &cases)).collect();
     Scores { found: cores.iter().filter(|core| core.failed > 0).count(), cores, cases: cases.len() }
+}
+
+/// Whether something that comes from outside has a dot of a sequence over [`NEAR`].
+fn names_far_dots(case: &Case) -> bool {
+    let is_far = |context: &CausalContext| context.runs().any(|run| run.last > NEAR);
+    case.steps.iter().any(|step| match step {
+        Step::Load { state, .. } | Step::ExpectUnloadable { state, .. } => {
+            State::deserialize(state).is_ok_and(|state| is_far(state.context()))
+        }
+        Step::Decode { bytes, .. } | Step::ExpectUndecodable { bytes, .. } => {
+            decode(&bytes.0).is_ok_and(|state| is_far(state.context()))
+        }
+        Step::AnswerDigest { bytes, .. } | Step::ExpectUnanswerable { bytes, .. } => {
+            decode_digest(&bytes.0).is_ok_and(|digest| is_far(&digest.context))
+        }
+        _ => false,
+    })
 }
 
 fn of(alarm: &Alarm, cases: &[Case]) -> Score {
