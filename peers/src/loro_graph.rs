@@ -22,7 +22,7 @@
 //! orders by operations, so that after equal histories the peer decides, and not how much else a mutation writes.
 //!
 //! **Messages** are exported updates since the version before. Loro keeps those whose causes have not come, and takes
-//! duplicates. What another replica lacks is asked by its version vector. A group is imported as a batch.
+//! duplicates. What another replica lacks is asked by its version vector; what is kept goes with it. A group is imported as a batch.
 //!
 //! **Reading** takes Loro's tree, and of concurrent entries its last by Lamport time; a deletion is an entry like others.
 
@@ -154,7 +154,8 @@ impl Replica for LoroGraph {
     }
 
     fn missing(&self, other: &Self) -> Result<Message> {
-        Ok(vec![self.document.export(ExportMode::updates(&other.document.oplog_vv()))?])
+        let updates = self.document.export(ExportMode::updates(&other.document.oplog_vv()))?;
+        Ok([Some(updates), self.document.export_pending_updates()?].into_iter().flatten().collect())
     }
 
     fn restart(&mut self, identity: Identity, keeps: bool) -> Result<()> {
