@@ -26,8 +26,21 @@ fn report<R: Replica + 'static>(cases: &[Case]) -> Report {
 /// What is not as the list says.
 fn differences(report: &Report, known: &Expectations, ids: &[String]) -> Vec<String> {
     let unexpected = report.results.iter().filter(|result| result.verdict.is_bad() && !known.excuses(result));
-    let told =
-        unexpected.map(|result| format!("{} {:?}: {}", result.id, result.verdict, result.failure.what));
+    let told = unexpected.map(|result| {
+        format!(
+            "{} {:?}, step {}: {}{}",
+            result.id,
+            result.verdict,
+            result.failure.step,
+            result.failure.what,
+            result
+                .failure
+                .difference
+                .as_ref()
+                .map(|found| format!("; expected {:?}, found {:?}", found.expected, found.got))
+                .unwrap_or_default()
+        )
+    });
     told.chain(known.surprises(report, ids).iter().map(ToString::to_string)).collect()
 }
 
