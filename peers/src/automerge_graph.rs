@@ -14,7 +14,7 @@
 //! actor decides, and not how much else a mutation writes.
 //!
 //! **Messages** are changes, by their bytes; automerge holds back those whose causes have not come, and takes
-//! duplicates. What another replica lacks is asked by hashes.
+//! duplicates. What another replica lacks is asked by hashes; if something is held back, the whole document is sent with it.
 //!
 //! **Reading** takes, of concurrent puts, automerge's winner among those whose ends are there (`get_all`), and of
 //! concurrent writes automerge's winner.
@@ -27,7 +27,7 @@ pub use layout::AutomergeGraphError;
 use crate::edit::Edit;
 use crate::graph::Graph;
 use crate::replica::{Identity, Message, Replica};
-use automerge::{Automerge, Change, ReadDoc};
+use automerge::{Automerge, ReadDoc};
 use dsr_conformance::protocol::Implementation;
 use dsr_core::Dictionary;
 use layout::{Result, actor, genesis, read};
@@ -77,11 +77,17 @@ impl Replica for AutomergeGraph {
     }
 
     fn deliver(&mut self, message: &Message) -> Result<()> {
-        let changes = message.iter().map(|bytes| Change::from_bytes(bytes.clone()));
-        Ok(self.document.apply_changes(changes.collect::<std::result::Result<Vec<_>, _>>()?)?)
+        for chunk in message {
+            self.document.load_incremental(chunk)?;
+        }
+        Ok(())
     }
 
     fn missing(&self, other: &Self) -> Result<Message> {
+        if !self.document.get_missing_deps(&[]).is_empty() {
+            // What waits is no change of the document yet, and travels only with the whole of it.
+            return Ok(vec![self.document.save()]);
+        }
         let changes = other.document.get_changes_added(&self.document);
         Ok(changes.iter().map(|change| change.raw_bytes().to_vec()).collect())
     }

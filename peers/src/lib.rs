@@ -11,10 +11,11 @@
 //! - the conditions before a mutation, over what the author's own document shows: what the specification refuses is
 //!   refused, and a group is written as a whole or not at all;
 //! - filters at reading that look at one element and what it names: an edge is shown if both its ends are there; a vertex
-//!   that has children and no parent, or that has no edge, is shown as hanging from the root.
+//!   that has children and no parent, or that has no edge, is shown as hanging from the root; if the edge that a register
+//!   shows is gone, or an end of it, another one of the same register is shown.
 //!
-//! What goes beyond is not done: breaking cycles, choosing between claims that the library shows, connecting parts of
-//! the graph that have lost their path. That would be the reference view once more, and the library's own answer would
+//! What goes beyond one register is not done: breaking cycles, by choosing which of the concurrent claims to ignore, or
+//! connecting parts of the graph that have lost their path. That would be the reference view once more, and the library's own answer would
 //! not be seen.
 //!
 //! | room | what is in it |

@@ -22,9 +22,10 @@
 //! orders by operations, so that after equal histories the peer decides, and not how much else a mutation writes.
 //!
 //! **Messages** are exported updates since the version before. Loro keeps those whose causes have not come, and takes
-//! duplicates. What another replica lacks is asked by its version vector. A group is imported as a batch.
+//! duplicates. What another replica lacks is asked by its version vector; what is kept goes with it. A group is imported as a batch.
 //!
 //! **Reading** takes Loro's tree, and of concurrent entries its last by Lamport time; a deletion is an entry like others.
+//! If the edge that `shown` names is gone, or an end of it, another edge of the register is shown, if one is left.
 
 mod layout;
 mod write;
@@ -37,7 +38,7 @@ use crate::replica::{Identity, Message, Replica, register};
 use dsr_conformance::protocol::{EdgeName, Implementation, ROOT};
 use dsr_core::{Dictionary, RT};
 use layout::{Result, attributes, edge, keys, map, open, text};
-use loro::{ExportMode, LoroDoc, LoroMap, LoroTree, LoroValue, TreeID, TreeParentId, ValueOrContainer};
+use loro::{ExportMode, LoroDoc, LoroMap, LoroTree, TreeID, TreeParentId};
 
 /// A replica in Loro.
 #[derive(Debug)]
@@ -72,13 +73,24 @@ impl LoroGraph {
         }
     }
 
-    /// The edge that a register shows.
-    fn shown(&self, register: &str) -> Result<Option<LoroMap>> {
-        let (shown, edges) = (self.map("shown"), self.map("edges"));
-        let Some(ValueOrContainer::Value(LoroValue::String(id))) = shown.get(register) else {
-            return Ok(None);
-        };
-        if edges.get(&id).is_some() { map(&edges, &id).map(Some) } else { Ok(None) }
+    /// The edge that a register shows: of those whose ends are there the one that is named, else the greatest id.
+    fn shown(&self, register_name: &str) -> Result<Option<LoroMap>> {
+        let (shown, edges, vertices) = (self.map("shown"), self.map("edges"), self.map("vertices"));
+        let named =
+            if shown.get(register_name).is_some() { Some(text(&shown, register_name)?) } else { None };
+        let mut found = None;
+        for id in keys(&edges) {
+            let held = map(&edges, &id)?;
+            let edge = edge(&held)?;
+            let there = vertices.get(&edge.from).is_some() && vertices.get(&edge.to).is_some();
+            if there && register(&edge, &self.dictionary) == register_name {
+                found = Some(held);
+                if named.as_ref() == Some(&id) {
+                    break;
+                }
+            }
+        }
+        Ok(found)
     }
 
     fn is_linked(&self, parent: &str, child: &str) -> Result<bool> {
@@ -154,7 +166,8 @@ impl Replica for LoroGraph {
     }
 
     fn missing(&self, other: &Self) -> Result<Message> {
-        Ok(vec![self.document.export(ExportMode::updates(&other.document.oplog_vv()))?])
+        let updates = self.document.export(ExportMode::updates(&other.document.oplog_vv()))?;
+        Ok([Some(updates), self.document.export_pending_updates()?].into_iter().flatten().collect())
     }
 
     fn restart(&mut self, identity: Identity, keeps: bool) -> Result<()> {

@@ -23,7 +23,7 @@ const REPLICAS: [&str; 3] = ["a", "b", "c"];
 const SEEDS: u64 = 200;
 const STEPS: usize = 40;
 
-struct Walk<R> {
+struct Walk<R: Replica> {
     peer: Peer<R>,
     dice: Dice,
     dictionary: Option<Dictionary>,
@@ -234,6 +234,7 @@ struct Deaf {
 
 impl Replica for Deaf {
     type Error = YrsGraphError;
+    type Update = Vec<u8>;
 
     fn implementation() -> Implementation {
         YrsGraph::implementation()

@@ -4,7 +4,7 @@
 
 use dsr_conformance::case::Case;
 use dsr_conformance::corpus::cases;
-use dsr_conformance::report::Verdict;
+use dsr_conformance::report::{Report, Verdict};
 use dsr_conformance::run::{ChildLimits, InProcess, Program, run};
 use dsr_peers::replica::Replica;
 use dsr_peers::{AutomergeGraph, LoroGraph, Peer, YrsGraph};
@@ -13,15 +13,21 @@ use std::time::Duration;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_dsr-peer");
 
-/// Every case of the profile, here and there.
+/// A run without its times.
+fn timeless(mut report: Report) -> Report {
+    report.results.iter_mut().for_each(|result| result.milliseconds = 0);
+    report
+}
+
+/// Every case, here and there.
 fn agrees<R: Replica + 'static>(name: &str) {
     let cases: Vec<Case> = cases().unwrap();
     let limits = ChildLimits { reply: Duration::from_secs(60), ..ChildLimits::default() };
     let mut program = Program { command: vec![PROGRAM.into(), name.into()], limits };
     let (there, here) = (run(&mut program, &cases), run(&mut InProcess(Peer::<R>::default), &cases));
-    assert_eq!(there.implementation.as_ref().map(|said| said.name.as_str()), Some(name));
-    assert_eq!(there, here);
     assert!(there.count(Verdict::Pass) > 0);
+    assert_eq!(there.implementation.as_ref().map(|said| said.name.as_str()), Some(name));
+    assert_eq!(timeless(there), timeless(here));
 }
 
 /// `[spec: CONF-1]`
@@ -49,7 +55,8 @@ fn law_the_program_ends_with_its_input_and_refuses_other_names() {
     assert_eq!(status.code(), Some(0));
     let output = Command::new(PROGRAM).arg("nobody").output().unwrap();
     assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("automerge, loro, yrs"));
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(["automerge", "loro", "yrs"].into_iter().all(|name| said.contains(name)), "{said}");
     let help = Command::new(PROGRAM).arg("--help").output().unwrap();
     assert!(String::from_utf8_lossy(&help.stdout).contains("dsr conform run -- dsr-peer loro"));
 }

@@ -3,9 +3,7 @@
 use crate::graph::{Attributes, Graph, Vertex};
 use crate::replica::{Identity, of_text, register};
 use automerge::transaction::Transactable;
-use automerge::{
-    ActorId, Automerge, AutomergeError, LoadChangeError, ObjId, ObjType, ROOT as DOCUMENT, ReadDoc, Value,
-};
+use automerge::{ActorId, Automerge, AutomergeError, ObjId, ObjType, ROOT as DOCUMENT, ReadDoc, Value};
 use dsr_conformance::protocol::EdgeName;
 use dsr_core::{Dictionary, RT};
 
@@ -15,9 +13,6 @@ pub enum AutomergeGraphError {
     /// In automerge.
     #[error(transparent)]
     Automerge(#[from] AutomergeError),
-    /// Bytes are no change.
-    #[error("not a change: {0}")]
-    Change(#[from] LoadChangeError),
     /// A text is no value.
     #[error("not a value: {0}")]
     Value(#[from] serde_json::Error),

@@ -1,8 +1,10 @@
 //! Where things are in the document; what goes wrong if they are not.
 
 use crate::graph::{Attributes, Graph, Vertex};
-use crate::replica::of_text;
-use dsr_conformance::protocol::EdgeName;
+use crate::replica::{of_text, register};
+use dsr_conformance::protocol::{EdgeName, ROOT};
+use dsr_core::{Dictionary, RT};
+use std::collections::BTreeMap;
 use yrs::{Any, Doc, Map, MapRef, Out, ReadTxn};
 
 /// What goes wrong.
@@ -29,6 +31,7 @@ pub(super) type Result<T> = std::result::Result<T, YrsGraphError>;
 pub(super) struct Roots {
     pub(super) vertices: MapRef,
     pub(super) edges: MapRef,
+    pub(super) shown: MapRef,
     pub(super) root: MapRef,
 }
 
@@ -68,14 +71,14 @@ impl Roots {
         Self {
             vertices: document.get_or_insert_map("vertices"),
             edges: document.get_or_insert_map("edges"),
+            shown: document.get_or_insert_map("shown"),
             root: document.get_or_insert_map("root"),
         }
     }
 
     /// What is shown.
-    pub(super) fn read(&self, transaction: &impl ReadTxn) -> Result<Graph> {
+    pub(super) fn read(&self, transaction: &impl ReadTxn, dictionary: &Dictionary) -> Result<Graph> {
         let mut graph = Graph { root: attributes(&self.root, transaction)?, ..Graph::default() };
-        let mut claims = Vec::new();
         for handle in keys(&self.vertices, transaction) {
             let held = map(&self.vertices, transaction, &handle)?;
             let vertex = Vertex {
@@ -83,18 +86,43 @@ impl Roots {
                 name: text(&held, transaction, "name")?,
                 attributes: attributes(&map(&held, transaction, "attributes")?, transaction)?,
             };
-            if held.contains_key(transaction, "parent") {
-                claims.push(map(&held, transaction, "parent")?);
-            }
             graph.vertices.insert(handle, vertex);
         }
-        for key in keys(&self.edges, transaction) {
-            claims.push(map(&self.edges, transaction, &key)?);
-        }
-        for claim in claims {
-            let held = attributes(&map(&claim, transaction, "attributes")?, transaction)?;
-            graph.show(edge(&claim, transaction)?, held);
+        for held in self.shown(transaction, dictionary)?.into_values() {
+            let attributes = attributes(&map(&held, transaction, "attributes")?, transaction)?;
+            graph.show(edge(&held, transaction)?, attributes);
         }
         Ok(graph)
+    }
+
+    /// The edge of each register: of those whose ends are there the one that is named, else the greatest id.
+    pub(super) fn shown(
+        &self,
+        transaction: &impl ReadTxn,
+        dictionary: &Dictionary,
+    ) -> Result<BTreeMap<String, MapRef>> {
+        let is_there = |handle: &str| handle == ROOT || self.vertices.contains_key(transaction, handle);
+        let mut found: BTreeMap<String, (bool, MapRef)> = BTreeMap::new();
+        for id in keys(&self.edges, transaction) {
+            let held = map(&self.edges, transaction, &id)?;
+            let edge = edge(&held, transaction)?;
+            let register = register_of(&edge, dictionary);
+            let is_named = self.shown.contains_key(transaction, &register)
+                && text(&self.shown, transaction, &register)? == id;
+            let has_named = found.get(&register).is_some_and(|(is_named, _)| *is_named);
+            if is_there(&edge.from) && is_there(&edge.to) && !has_named {
+                found.insert(register, (is_named, held));
+            }
+        }
+        Ok(found.into_iter().map(|(register, (_, held))| (register, held)).collect())
+    }
+}
+
+/// The name of an edge's register: for an `RT` edge that of its child.
+pub(super) fn register_of(edge: &EdgeName, dictionary: &Dictionary) -> String {
+    if edge.label == RT {
+        serde_json::Value::from(vec![edge.to.as_str()]).to_string()
+    } else {
+        register(edge, dictionary)
     }
 }
