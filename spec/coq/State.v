@@ -20,6 +20,10 @@ Inductive record :=
 | Edge (from to : Dot) (label : Name) (stamp : N)
 | Write (target : Dot) (name : Name) (value : Value) (time_ns : N) (stamp : N).
 
+Arguments Vertex (type name)%string external_id stamp%N.
+Arguments Edge from to label%string stamp%N.
+Arguments Write target name%string value (time_ns stamp)%N.
+
 Definition stamp_of (x : record) : N :=
   match x with Vertex _ _ _ s | Edge _ _ _ s | Write _ _ _ _ s => s end.
 

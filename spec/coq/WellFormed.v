@@ -14,15 +14,15 @@ Definition closed (X : State) : Prop :=
 Definition wf (X : State) : Prop := events X /\ held_seen X /\ closed X.
 
 (** [WF-3] An anchor that is held is of the right kind; an anchor of sequence 0 is ROOT. *)
-Definition may_anchor (x y : record) : Prop :=
+Definition may_anchor (x y : record) : bool :=
   match x, y with
-  | Edge _ _ _ _, Vertex _ _ _ _ => True
-  | Write _ _ _ _ _, Vertex _ _ _ _ | Write _ _ _ _ _, Edge _ _ _ _ => True
-  | _, _ => False
+  | Edge _ _ _ _, Vertex _ _ _ _ => true
+  | Write _ _ _ _ _, Vertex _ _ _ _ | Write _ _ _ _ _, Edge _ _ _ _ => true
+  | _, _ => false
   end.
 Definition right_anchors (X : State) : Prop :=
   forall d x a, get X d = Some x -> In a (anchors x) ->
-    (sequence a = 0%N -> a = ROOT) /\ forall y, get X a = Some y -> may_anchor x y.
+    (sequence a = 0%N -> a = ROOT) /\ forall y, get X a = Some y -> may_anchor x y = true.
 
 (** [WF-4] An edge has two different ends; an RT edge does not enter ROOT. WF-5 and WF-6 bound the sizes of
     names, values and stamps: like WF-4 they judge a record by itself. *)
@@ -84,4 +84,45 @@ Theorem live_or_pending X d x a : wf X -> get X d = Some x -> In a (anchors x) -
 Proof.
   intros (_ & _ & C) G I. specialize (C _ _ _ G I). unfold is_dead in C.
   destruct (holds X a), (seen X a); auto; discriminate.
+Qed.
+
+(** ** The same, decided *)
+
+Definition check_wf (X : State) : bool :=
+  forallb (fun d => negb (eqb (sequence d) 0%N)) (elements (context X)) &&
+  forallb (seen X) (keys (store X)) &&
+  forallb (fun e => forallb (fun a => negb (is_dead X a)) (anchors (snd e))) (records X).
+
+Definition check_anchors (X : State) : bool :=
+  forallb (fun e => forallb (fun a =>
+      implb (eqb (sequence a) 0%N) (eqb a ROOT) &&
+      match get X a with Some y => may_anchor (snd e) y | None => true end) (anchors (snd e)))
+    (records X).
+
+Theorem check_wf_iff X : check_wf X = true <-> wf X.
+Proof.
+  unfold check_wf. rewrite !andb_true_iff, !forallb_forall. split.
+  - intros ((E & S) & C). split; [| split].
+    + intros d I Z. apply mem_elements in I. apply E in I. rewrite Z in I. discriminate.
+    + intros d H. apply S, in_keys. unfold holds, get in H. now destruct (find (store X) d).
+    + intros d x a G I. apply records_get in G. apply C in G. simpl in G. rewrite forallb_forall in G.
+      apply G in I. now destruct (is_dead X a).
+  - intros (E & S & C). split; [split |].
+    + intros d I. apply mem_elements in I. apply E in I. apply eqb_neq in I. now rewrite I.
+    + intros d I. apply in_keys in I. apply S. unfold holds, get. now destruct (find (store X) d).
+    + intros [d x] I. apply records_get in I. apply forallb_forall. intros a J. simpl in J.
+      now rewrite (C _ _ _ I J).
+Qed.
+
+Theorem check_anchors_iff X : check_anchors X = true <-> right_anchors X.
+Proof.
+  unfold check_anchors. rewrite forallb_forall. split.
+  - intros C d x a G I. apply records_get in G. apply C in G. simpl in G. rewrite forallb_forall in G.
+    apply G in I. apply andb_prop in I as [Z M]. split.
+    + intros E. rewrite E in Z. now apply eqb_eq.
+    + intros y H. now rewrite H in M.
+  - intros R [d x] G. apply records_get in G. apply forallb_forall. intros a I. simpl in I.
+    destruct (R _ _ _ G I) as [Z M]. apply andb_true_intro. split.
+    + destruct (eqb (sequence a) 0%N) eqn:E; auto. apply eqb_eq in E. apply eqb_eq. auto.
+    + simpl. destruct (get X a); auto.
 Qed.
