@@ -37,7 +37,7 @@ Section Map.
 
   Definition find (m : fmap) (k : K) : option V := lookup k (entries m).
   Definition keys (m : fmap) : list K := map fst (entries m).
-  Definition size (m : fmap) : nat := List.length (entries m).
+  Definition size (m : fmap) : nat := length (entries m).
 
   Lemma ascending_tail e l : ascending (e :: l) = true -> ascending l = true.
   Proof. destruct e, l as [| []]; simpl; auto. now intros ?%andb_prop. Qed.

@@ -52,7 +52,7 @@ Definition below (X Y : State) : Prop := X ⊔ Y = Y.
 Infix "⊑" := below (at level 70).
 
 Lemma join_upper_left X Y : agree X Y -> X ≤ X ⊔ Y.
-Proof. intros. eapply le_trans; [now apply merge_upper_left | apply close_inflationary]. Qed.
+Proof. intros. apply (le_trans _ (merge X Y)); [now apply merge_upper_left | apply close_inflationary]. Qed.
 
 Lemma join_upper_right X Y : agree X Y -> Y ≤ X ⊔ Y.
 Proof. intros. rewrite join_comm. now apply join_upper_left, agree_sym. Qed.
@@ -174,6 +174,31 @@ Theorem right_anchors_filed (U : Dot -> record -> Prop) :
 Proof. intros R X F d x a G I. destruct (R _ _ _ (F _ _ G) I). auto. Qed.
 
 (** ** [CRASH-3] If a dot was used twice *)
+
+(** A dot that two states hold with different records can be named. *)
+Definition reused_dot (X Y : State) : option Dot :=
+  option_map fst (List.find (fun e => match get Y (fst e) with
+    | Some y => negb (eqb (snd e) y) | None => false end) (records X)).
+
+Theorem reused_dot_none X Y : reused_dot X Y = None <-> agree X Y.
+Proof.
+  unfold reused_dot. split.
+  - intros N d x y G H. destruct (List.find _ _) eqn:F; [easy |].
+    apply records_get in G. apply (find_none _ _ F) in G. simpl in G. rewrite H in G.
+    apply negb_false_iff in G. now apply eqb_eq.
+  - intros A. destruct (List.find _ _) as [[d x] |] eqn:F; auto. apply find_some in F as [G E].
+    apply records_get in G. simpl in E. destruct (get Y d) eqn:H; [| easy].
+    rewrite (A _ _ _ G H), eqb_refl in E. discriminate.
+Qed.
+
+Theorem reused_dot_some X Y d : reused_dot X Y = Some d ->
+  exists x y, get X d = Some x /\ get Y d = Some y /\ x <> y.
+Proof.
+  unfold reused_dot. destruct (List.find _ _) as [[e x] |] eqn:F; [| easy]. intros [= <-].
+  apply find_some in F as [G E]. apply records_get in G. simpl in *.
+  destruct (get Y e) as [y |] eqn:H; [| easy]. exists x, y. repeat split; auto.
+  intros ->. now rewrite eqb_refl in E.
+Qed.
 
 (** r1.3 is used for an edge anchored to r1.1, and for a write on ROOT. X holds the edge, Y has seen r1.1 die,
     Z holds the write. All three are well-formed, and the order of delivery shows. *)

@@ -4,7 +4,7 @@
     strict total order. Records are ordered field by field, so the orders of pairs, lists and options are
     lexicographic. *)
 
-From Coq Require Export NArith ZArith List Bool String Lia.
+From Coq Require Export NArith ZArith String List Bool Lia.
 From Coq Require Import Ascii.
 Export ListNotations.
 #[global] Open Scope list_scope.

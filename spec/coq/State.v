@@ -160,3 +160,38 @@ Theorem three_conditions X d :
   | Dead => seen X d = true /\ get X d = None
   end.
 Proof. unfold cond. destruct (get X d); auto. now destruct (seen X d). Qed.
+
+(** ** The order and equality, decided *)
+
+Definition check_before (b c : condition) : bool :=
+  match b, c with
+  | Unseen, _ | _, Dead => true
+  | Held x, Held y => eqb x y
+  | _, _ => false
+  end.
+
+Definition check_le (X Y : State) : bool := forallb (fun d => check_before (cond X d) (cond Y d)) (domain X).
+
+Theorem check_le_iff X Y : check_le X Y = true <-> X ≤ Y.
+Proof.
+  assert (B : forall b c, check_before b c = true <-> before b c).
+  { intros b c. split.
+    - destruct b, c; simpl; try easy; try constructor. intros <-%eqb_eq. constructor.
+    - intros [d | x | d]; simpl; [easy | apply eqb_refl | now destruct d]. }
+  unfold check_le. rewrite forallb_forall. split.
+  - intros F d. destruct (member d (domain X)) eqn:M.
+    + apply B, F. now apply member_in.
+    + apply domain_spec_not in M. rewrite M. constructor.
+  - intros L d _. apply B, L.
+Qed.
+
+Definition state_eqb (X Y : State) : bool :=
+  eqb (entries (store X)) (entries (store Y)) && eqb (elements (context X)) (elements (context Y)).
+
+Theorem state_eqb_eq X Y : state_eqb X Y = true <-> X = Y.
+Proof.
+  unfold state_eqb. rewrite andb_true_iff, !eqb_eq. split; [| now intros ->].
+  intros [S C]. destruct X as [s c], Y as [t e]. simpl in *. f_equal.
+  - now apply entries_injective.
+  - apply set_ext. intros d. apply eq_true_iff_eq. now rewrite <- !mem_elements, C.
+Qed.
