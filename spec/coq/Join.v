@@ -37,6 +37,9 @@ Proof. intros (_ & S & C). unfold join. rewrite merge_idem by auto. now apply cl
 Theorem join_bottom X : wf X -> bottom ⊔ X = X.
 Proof. intros (_ & S & C). unfold join. rewrite merge_bottom by auto. now apply close_fixed. Qed.
 
+Corollary join_bottom_right X : wf X -> X ⊔ bottom = X.
+Proof. intros. rewrite join_comm. now apply join_bottom. Qed.
+
 (** No dot was used twice: hence [agree]. Without it this is false, see [reuse_breaks_join]. *)
 Theorem join_assoc X Y Z : agree X Y -> agree Y Z -> agree X Z -> (X ⊔ Y) ⊔ Z = X ⊔ (Y ⊔ Z).
 Proof.

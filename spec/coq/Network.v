@@ -320,3 +320,42 @@ Section Runs.
     destruct L; easy.
   Qed.
 End Runs.
+
+(** ** [CRASH-1] is needed: a counter that is lost breaks convergence *)
+
+(** r2 adds a vertex; r1 claims an edge from it, under r1.1; r2 removes the vertex. Then r1 restarts *under its
+    old id without its state*, and writes an attribute of ROOT, again under r1.1. Each delta is that of a
+    possible mutation, and two readers who receive the same four deltas differ for ever. *)
+Module Forgot.
+  Definition D : Dictionary := {| functional := fun _ => false |}.
+  Definition author (n : N) : Author := {| me := replica (r n 0); time_ns := 0 |}.
+  Definition add := AddVertex "room"%string "v"%string None empty ROOT "in"%string true empty.
+  Definition link := AddEdge {| key_from := r 2 1; key_to := ROOT; key_label := "near"%string |} empty.
+  Definition remove := RemoveVertex (r 2 1).
+  Definition write := UpdateAttributes ROOT (insert "a"%string (Some {| value_type := 4; items := [1%Z] |}) empty).
+  Definition d0 := delta D (author 2) add bottom.
+  Definition d1 := delta D (author 1) link d0.
+  Definition d2 := delta D (author 2) remove d0.
+  (** Made in the empty state. *)
+  Definition d3 := delta D (author 1) write bottom.
+End Forgot.
+
+Import Forgot.
+
+Theorem reused_dots_diverge :
+  possible bottom add = true /\ possible d0 link = true /\ possible d0 remove = true /\
+  possible bottom write = true /\
+  ((bottom ⊔ d0 ⊔ d1) ⊔ d2) ⊔ d3 <> ((bottom ⊔ d0 ⊔ d1) ⊔ d3) ⊔ d2.
+Proof.
+  repeat split. intros E. apply (f_equal (fun X => is_dead X (r 1 1))) in E. vm_compute in E. discriminate.
+Qed.
+
+(** The dot is used twice, and that can be seen. *)
+Theorem reuse_is_seen : reused_dot d1 d3 = Some (r 1 1).
+Proof. reflexivity. Qed.
+
+(** A fresh incarnation, which is what ID-3 asks for, uses other dots, and all orders agree. *)
+Theorem fresh_incarnation_converges :
+  let d3 := delta D {| me := next_incarnation (replica (r 1 0)); time_ns := 0 |} write bottom in
+  ((bottom ⊔ d0 ⊔ d1) ⊔ d2) ⊔ d3 = ((bottom ⊔ d0 ⊔ d1) ⊔ d3) ⊔ d2.
+Proof. now apply state_eqb_eq. Qed.
