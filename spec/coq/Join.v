@@ -216,3 +216,18 @@ Proof.
   exists Reuse.X, Reuse.Y, Reuse.Z. repeat split; try now apply check_wf_iff.
   intros E. apply (f_equal (fun S => is_dead S (r 1 3))) in E. vm_compute in E. discriminate.
 Qed.
+
+(** ** [WF-3] Wrong anchors *)
+
+(** Without NET-5 the join of two states can break WF-3, and WF-3 alone: r2.1 was written on r1.1 before its
+    author knew that r1.1 is a write. *)
+Theorem wrong_anchor_by_join : exists X Y, wf X /\ wf Y /\ agree X Y /\ right_anchors X /\ right_anchors Y /\
+  wf (X ⊔ Y) /\ ~ right_anchors (X ⊔ Y).
+Proof.
+  set (w t := Held (Write t "a" {| value_type := 4; items := [1%Z] |} 0 1)).
+  exists (make (fun _ => w (r 1 1)) [r 2 1]), (make (fun _ => w ROOT) [r 1 1]).
+  split; [now apply check_wf_iff |]. split; [now apply check_wf_iff |].
+  split; [now apply reused_dot_none |]. split; [now apply check_anchors_iff |].
+  split; [now apply check_anchors_iff |]. split; [now apply check_wf_iff |].
+  rewrite <- check_anchors_iff. vm_compute. discriminate.
+Qed.

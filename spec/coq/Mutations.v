@@ -692,3 +692,22 @@ Proof.
   split; auto. intros d x G I. pose proof (close_closed _ _ _ _ G I) as C.
   unfold join in K. congruence.
 Qed.
+
+(** [MUT-0.4] Deltas compose by join: the join of deltas made one after the other does what both do. *)
+Theorem deltas_compose D a m m' X : wf X -> possible X m = true -> possible (mutate D a m X) m' = true ->
+  X ⊔ (delta D a m X ⊔ delta D a m' (mutate D a m X)) = mutate D a m' (mutate D a m X).
+Proof.
+  intros W Q Q'. pose proof (wf_mutate D a m X W Q) as W'.
+  pose proof (plan_sound D X a m W Q) as P. pose proof (plan_sound D _ a m' W' Q') as P'.
+  rewrite <- (mutate_is_join D a m' _ W' Q').
+  rewrite <- (mutate_is_join D a m X W Q) at 2.
+  (* What the second files is new to the author's state, which has seen all of X and of the first. *)
+  assert (N : forall Y, Y ≤ mutate D a m X -> agree Y (delta D a m' (mutate D a m X))).
+  { intros Y L d x y G H. pose proof (L d) as B. apply cond_held in G. rewrite G in B.
+    apply (delta_of_held _ _ P') , lookup_in, (cond_made _ _ W' P') in H; [| apply P'].
+    rewrite H in B. inversion B. }
+  symmetry. apply join_assoc; try apply N.
+  - now apply (agree_delta_of _ _ W P).
+  - rewrite <- (mutate_is_join D a m X W Q). now apply join_upper_right, (agree_delta_of _ _ W P).
+  - now apply edit_inflationary.
+Qed.

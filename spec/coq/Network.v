@@ -228,10 +228,9 @@ Section Runs.
     - intros q. unfold update. destruct (eqb q p) eqn:EQ; auto. simpl. rewrite <- state_joins0. apply join_comm.
   Qed.
 
-  Theorem run_sound es : sound_world (run es).
+  Lemma step_sound w e : sound_world w -> sound_world (step w e).
   Proof.
-    unfold run. assert (S : sound_world start) by apply start_sound. revert S. generalize start.
-    induction es as [| e es IH]; intros w S; simpl; auto. apply IH. destruct e; simpl.
+    intros S. destruct e; simpl.
     - destruct (possible (at_ w p) m) eqn:Q; auto. now apply mutate_sound.
     - destruct (sent w M) eqn:E; auto. apply receive_sound; auto. now apply sent_in.
     - destruct (sent w M) eqn:E; auto. destruct (sent w N) eqn:F; auto. simpl.
@@ -250,6 +249,12 @@ Section Runs.
       + intros d. rewrite delta_for_context by (apply WA || apply WQ). intros H. apply (own_state _ S q).
         unfold is_dead in H. destruct (seen (at_ w q) d); auto.
         rewrite !andb_false_r in H. discriminate.
+  Qed.
+
+  Theorem run_sound es : sound_world (run es).
+  Proof.
+    unfold run. generalize start_sound. generalize start. induction es as [| e es IH]; intros w S; simpl; auto.
+    apply IH. now apply step_sound.
   Qed.
 
   (** ** What follows *)
@@ -293,6 +298,19 @@ Section Runs.
     apply messages_proper. now apply (got_sent _ S) in I.
   Qed.
 
+  (** [NET-6] [CLAIM-L3] Whatever was lost, and by whatever messages it came at last: who is beyond all that was
+      ever sent has the join of it all. So all such replicas are equal. *)
+  Theorem all_received es p : (forall M, In M (messages (run es)) -> M ≤ at_ (run es) p) ->
+    at_ (run es) p = joins (messages (run es)).
+  Proof.
+    intros A. pose proof (run_sound es) as S.
+    assert (P : Forall (proper (said (run es))) (messages (run es))) by
+      (apply Forall_forall; intros M; apply messages_proper).
+    pose proof (proper_joins _ _ P) as PJ. apply (proper_le_antisym (said (run es))); auto using states_proper.
+    - rewrite (state_joins _ S p). apply (joins_incl _ (dots_unique es)); auto. apply (got_sent _ S).
+    - apply joins_least; auto. apply (state_wf _ S).
+  Qed.
+
   (** [SYNC-5] After loss: who joins the other's answer has the join of all that either received. *)
   Theorem resynchronised es p q :
     at_ (run es) p ⊔ delta_for (at_ (run es) q) (digest (at_ (run es) p)) =
@@ -301,6 +319,41 @@ Section Runs.
     pose proof (run_sound es) as S. rewrite delta_for_join; [| apply (state_wf _ S) | apply states_agree].
     rewrite (joins_app (said (run es)) (dots_unique es)), !(state_joins _ S); auto;
       apply Forall_forall; intros M I; apply messages_proper; now apply (got_sent _ S) in I.
+  Qed.
+
+  (** [STATE-3] A state only moves forwards in a run. *)
+  Theorem states_grow es es' p : at_ (run es) p ≤ at_ (run (es ++ es')) p.
+  Proof.
+    assert (G : forall w, sound_world w -> forall e, at_ w p ≤ at_ (step w e) p).
+    { intros w S e. assert (L : forall q M, proper (said w) M \/ (exists t m, possible (at_ w q) m = true /\
+        M = delta D {| me := q; time_ns := t |} m (at_ w q)) -> at_ w p ≤ update (at_ w) q (at_ w q ⊔ M) p).
+      { intros q M H. apply (update_case (fun p X => at_ w p ≤ X)); auto using le_refl.
+        apply join_upper_left. pose proof (state_wf _ S q) as W. destruct H as [H | (t & m & Q & ->)].
+        - apply (proper_agree (said w)); auto; [apply S |]. split; [auto | apply (state_filed _ S)].
+        - apply agree_delta_of; auto. now apply plan_sound. }
+      destruct e; simpl; try apply le_refl.
+      - destruct (possible (at_ w p0) m) eqn:Q; [| apply le_refl]. apply L. eauto.
+      - destruct (sent w M) eqn:E; [| apply le_refl]. apply sent_in in E. apply L. left.
+        split; [now apply (messages_wf _ S) |]. intros d x H. now exists M.
+      - destruct (sent w M && sent w N); apply le_refl.
+      - destruct (existsb (state_eqb A) (asked w)); apply le_refl. }
+    unfold run. rewrite fold_left_app. fold (run es). pose proof (run_sound es) as S. revert S.
+    generalize (run es). induction es' as [| e es' IH]; intros w S; simpl; [apply le_refl |].
+    eapply le_trans; [apply (G w S e) | apply IH]. now apply step_sound.
+  Qed.
+
+  (** [CLAIM-R1] So what is removed somewhere stays removed there, *)
+  Corollary stays_removed es es' p d :
+    is_dead (at_ (run es) p) d = true -> is_dead (at_ (run (es ++ es')) p) d = true.
+  Proof. apply dead_for_ever, states_grow. Qed.
+
+  (** and is removed wherever a message that says so arrives. *)
+  Corollary removed_by_message es p M d : In M (got (run es) p) -> is_dead M d = true ->
+    is_dead (at_ (run es) p) d = true.
+  Proof.
+    pose proof (run_sound es) as S. intros I. apply dead_for_ever. rewrite (state_joins _ S p).
+    apply (joins_upper (said (run es)) (dots_unique es)); auto. apply Forall_forall. intros N J.
+    apply messages_proper. now apply (got_sent _ S) in J.
   Qed.
 
   (** [CLAIM-S1] [CTX-2] Who has received all that was ever sent has no gap in its context. *)
