@@ -49,6 +49,15 @@ Proof.
   now rewrite (merge_comm (merge Y Z)), merge_assoc.
 Qed.
 
+(** [WF-2] On a state that is not closed it is not idempotent, nor is the empty state neutral. *)
+Theorem idempotent_iff_closed X : held_seen X -> (X ⊔ X = X <-> closed X) /\ (bottom ⊔ X = X <-> closed X).
+Proof.
+  intros S. unfold join. rewrite merge_idem, merge_bottom by auto.
+  assert (E : close X = X <-> closed X).
+  { split; [intros <-; apply close_closed | apply close_fixed]. }
+  now split.
+Qed.
+
 (** ** [JOIN-4] The order of the semilattice *)
 
 Definition below (X Y : State) : Prop := X ⊔ Y = Y.

@@ -54,6 +54,60 @@ Proof.
   unfold greater. destruct (cmp x0 x1); auto.
 Qed.
 
+(** [JOIN-1] The same by store and context apart, as an implementation has them: this is [State::merge]. *)
+Definition merge_parts (X Y : State) : State :=
+  {| store := tabulate (fun d =>
+       match get X d, get Y d with
+       | Some x, Some y => Some (greater x y)
+       | Some x, None => if seen Y d then None else Some x
+       | None, Some y => if seen X d then None else Some y
+       | None, None => None
+       end) (keys (store X) ++ keys (store Y));
+     context := union (context X) (context Y) |}.
+
+Lemma get_merge_parts X Y d : get (merge_parts X Y) d =
+  match get X d, get Y d with
+  | Some x, Some y => Some (greater x y)
+  | Some x, None => if seen Y d then None else Some x
+  | None, Some y => if seen X d then None else Some y
+  | None, None => None
+  end.
+Proof.
+  unfold merge_parts. unfold get at 1. simpl. rewrite find_tabulate, member_app.
+  assert (M : forall Z, member d (keys (store Z)) = match get Z d with Some _ => true | None => false end).
+  { intros Z. apply eq_true_iff_eq. rewrite member_in, in_keys. unfold get.
+    destruct (find (store Z) d); split; congruence. }
+  rewrite !M. now destruct (get X d), (get Y d).
+Qed.
+
+Lemma seen_merge_parts X Y d : seen (merge_parts X Y) d = seen X d || seen Y d.
+Proof. apply mem_union. Qed.
+
+Theorem merge_is_merge_parts X Y : held_seen X -> held_seen Y -> merge_parts X Y = merge X Y.
+Proof.
+  intros HX HY.
+  assert (S : held_seen (merge_parts X Y)).
+  { intros d. specialize (HX d). specialize (HY d). unfold holds in *.
+    rewrite get_merge_parts, seen_merge_parts.
+    destruct (get X d), (get Y d), (seen X d), (seen Y d); simpl; auto. }
+  apply state_ext; auto using held_seen_merge. intros d. specialize (HX d). specialize (HY d).
+  rewrite cond_merge. unfold cond, holds in *. rewrite get_merge_parts, seen_merge_parts.
+  destruct (get X d), (get Y d), (seen X d), (seen Y d); simpl; auto; now (discriminate HX || discriminate HY) || auto.
+Qed.
+
+(** [WF-1] It is associative on all states whatever, those that hold what they have not seen included. *)
+Theorem merge_parts_assoc X Y Z : merge_parts (merge_parts X Y) Z = merge_parts X (merge_parts Y Z).
+Proof.
+  assert (S : context (merge_parts (merge_parts X Y) Z) = context (merge_parts X (merge_parts Y Z))).
+  { apply set_ext. intros d. simpl. rewrite !mem_union. now rewrite orb_assoc. }
+  assert (T : store (merge_parts (merge_parts X Y) Z) = store (merge_parts X (merge_parts Y Z))).
+  { apply fmap_ext. intros d. fold (get (merge_parts (merge_parts X Y) Z) d).
+    fold (get (merge_parts X (merge_parts Y Z)) d). rewrite !get_merge_parts, !seen_merge_parts.
+    destruct (get X d), (get Y d), (get Z d), (seen X d), (seen Y d), (seen Z d); simpl; auto.
+    all: now rewrite greater_assoc. }
+  destruct (merge_parts (merge_parts X Y) Z), (merge_parts X (merge_parts Y Z)). simpl in *. congruence.
+Qed.
+
 (** ** Merge is a semilattice *)
 
 Theorem merge_comm X Y : merge X Y = merge Y X.

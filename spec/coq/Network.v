@@ -273,19 +273,31 @@ Section Runs.
   Corollary states_agree es p q : agree (at_ (run es) p) (at_ (run es) q).
   Proof. eapply proper_agree; eauto using dots_unique, states_proper. Qed.
 
-  (** [WF-3] Honest authors' records are anchored to records of the right kind. *)
-  Theorem states_right_anchors es p : right_anchors (at_ (run es) p).
+  (** [WF-3] Honest authors' records are anchored to records of the right kind: in every state, *)
+  Lemma filed_right_anchors es X : filed (said (run es)) X -> right_anchors X.
   Proof.
-    pose proof (run_sound es) as S. apply (right_anchors_filed (said (run es))); [| apply (state_filed _ S)].
-    intros d x b G I. destruct (said_anchored _ S _ _ _ G I) as [-> | (y & (M & IM & GM) & A)].
-    - split; auto. intros z (M & IM & GM). exfalso. destruct (messages_wf _ S _ IM) as (E & H & _).
-      assert (HR : holds M ROOT = true) by (unfold holds; now rewrite GM).
-      apply H in HR. now apply E in HR.
-    - split.
-      + intros Z. exfalso. destruct (messages_wf _ S _ IM) as (E & H & _).
-        assert (HR : holds M b = true) by (unfold holds; now rewrite GM).
-        apply H in HR. now apply E in HR.
-      + intros z K. enough (z = y) by now subst. eapply (said_once _ S); eauto. now exists M.
+    pose proof (run_sound es) as S. apply right_anchors_filed.
+    assert (Z : forall b y, said (run es) b y -> sequence b <> 0%N).
+    { intros b y (M & IM & GM). destruct (messages_wf _ S _ IM) as (E & H & _).
+      apply E, H. unfold holds. now rewrite GM. }
+    intros d x b G I. destruct (said_anchored _ S _ _ _ G I) as [-> | (y & K & A)].
+    - split; auto. intros z H. now apply Z in H.
+    - split; [intros E; now apply Z in K |]. intros z H. now rewrite (said_once _ S _ _ _ H K).
+  Qed.
+
+  Theorem states_right_anchors es p : right_anchors (at_ (run es) p).
+  Proof. apply (filed_right_anchors es), (state_filed _ (run_sound es)). Qed.
+
+  (** and in every message: deltas, groups, answers. *)
+  Theorem messages_right_anchors es M : In M (messages (run es)) -> right_anchors M.
+  Proof. intros I. apply (filed_right_anchors es). now apply messages_proper. Qed.
+
+  (** [CLOSE-3] So two passes close whatever is merged in a run. *)
+  Theorem two_passes_in_runs es p M : In M (messages (run es)) ->
+    at_ (run es) p ⊔ M = pass (pass (merge (at_ (run es) p) M)).
+  Proof.
+    intros I. apply two_passes; [apply held_seen_merge |]. apply (filed_right_anchors es).
+    intros d x [G | G]%merge_from; [now apply (states_proper es p) | now apply (messages_proper es M)].
   Qed.
 
   (** [CLAIM-L3] [JOIN-5] Strong eventual consistency: who has received the same messages has the same state,
