@@ -242,7 +242,7 @@ Definition depth_two : State :=
 Theorem one_pass_is_not_enough : right_anchors depth_two /\ pass depth_two <> pass (pass depth_two).
 Proof.
   split; [now apply check_anchors_iff |].
-  intros E. apply (f_equal (fun X => is_dead X (r 1 3))) in E. discriminate.
+  intros E. apply (f_equal (fun X => is_dead X (r 1 3))) in E. vm_compute in E. discriminate.
 Qed.
 
 (** With anchors of the wrong kind closure can take more than two passes, and still ends: here a write is
@@ -253,5 +253,5 @@ Definition depth_three : State :=
     [r 1 1; r 1 2; r 1 3; r 1 4].
 
 Theorem wrong_anchors_take_longer : close depth_three <> pass (pass depth_three).
-Proof. intros E. apply (f_equal (fun X => is_dead X (r 1 4))) in E. discriminate. Qed.
+Proof. intros E. apply (f_equal (fun X => is_dead X (r 1 4))) in E. vm_compute in E. discriminate. Qed.
 
