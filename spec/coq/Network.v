@@ -251,11 +251,11 @@ Section Runs.
         rewrite !andb_false_r in H. discriminate.
   Qed.
 
+  Lemma steps_sound es : forall w, sound_world w -> sound_world (fold_left step es w).
+  Proof. induction es; simpl; auto using step_sound. Qed.
+
   Theorem run_sound es : sound_world (run es).
-  Proof.
-    unfold run. generalize start_sound. generalize start. induction es as [| e es IH]; intros w S; simpl; auto.
-    apply IH. now apply step_sound.
-  Qed.
+  Proof. apply steps_sound, start_sound. Qed.
 
   (** ** What follows *)
 
@@ -331,6 +331,96 @@ Section Runs.
     pose proof (run_sound es) as S. rewrite delta_for_join; [| apply (state_wf _ S) | apply states_agree].
     rewrite (joins_app (said (run es)) (dots_unique es)), !(state_joins _ S); auto;
       apply Forall_forall; intros M I; apply messages_proper; now apply (got_sent _ S) in I.
+  Qed.
+
+  (** [SYNC-5] The same as events: p sends its digest, q answers, the answer arrives. *)
+  Definition pull (w : World) (p q : Replica) : list event :=
+    [Ask p; Answer q (at_ w p); Deliver p (delta_for (at_ w q) (digest (at_ w p)))].
+  Definition pulled (w : World) (p q : Replica) : World := fold_left step (pull w p q) w.
+
+  Lemma pulled_sound w p q : sound_world w -> sound_world (pulled w p q).
+  Proof. intros. now apply steps_sound. Qed.
+
+  Lemma pulled_state w p q : sound_world w -> forall o, at_ (pulled w p q) o =
+    if eqb o p then at_ w p ⊔ at_ w q else at_ w o.
+  Proof.
+    intros S o. assert (R : forall X, state_eqb X X = true) by (intros; now apply state_eqb_eq).
+    unfold pulled, pull, fold_left, step, sent. cbn [asked existsb]. rewrite R. cbn [orb].
+    unfold say. cbn [messages existsb at_]. rewrite R. cbn [orb receive at_]. unfold update.
+    destruct (eqb o p); auto. apply delta_for_join; [apply (state_wf _ S) |].
+    apply (proper_agree (said w)); [apply S | |]; split; apply (state_wf _ S) || apply (state_filed _ S).
+  Qed.
+
+  (** A hub pulls from each of some replicas, and each of them pulls from it. *)
+  Definition gather (h : Replica) (ps : list Replica) (w : World) : World :=
+    fold_left (fun w p => pulled w h p) ps w.
+  Definition spread (h : Replica) (ps : list Replica) (w : World) : World :=
+    fold_left (fun w p => pulled w p h) ps w.
+
+  Lemma pulled_upper w p q : sound_world w ->
+    at_ w p ≤ at_ (pulled w p q) p /\ at_ w q ≤ at_ (pulled w p q) p.
+  Proof.
+    intros S. rewrite pulled_state, eqb_refl by auto.
+    assert (A : agree (at_ w p) (at_ w q)) by
+      (apply (proper_agree (said w)); [apply S | |]; split; apply (state_wf _ S) || apply (state_filed _ S)).
+    auto using join_upper_left, join_upper_right.
+  Qed.
+
+  Lemma gathered h ps : forall w, sound_world w -> sound_world (gather h ps w) /\
+    at_ w h ≤ at_ (gather h ps w) h /\
+    (forall p, p <> h -> at_ (gather h ps w) p = at_ w p) /\
+    forall p, In p ps -> at_ w p ≤ at_ (gather h ps w) h.
+  Proof.
+    induction ps as [| q ps IH]; intros w S; simpl.
+    { split; [auto | split; [apply le_refl | split; [auto | intros p []]]]. }
+    destruct (IH (pulled w h q) (pulled_sound _ _ _ S)) as (S' & L & O & A).
+    destruct (pulled_upper w h q S) as [LH LQ]. split; auto. split; [eapply le_trans; eauto |].
+    assert (E : forall p, p <> h -> at_ (pulled w h q) p = at_ w p).
+    { intros p N. rewrite pulled_state by auto. apply eqb_neq in N. now rewrite N. }
+    split; [intros p N; now rewrite O, E |]. intros p [-> | I]; [eapply le_trans; eauto |].
+    destruct (eq_dec p h) as [-> | N]; [eapply le_trans; eauto |]. rewrite <- (E p N). auto.
+  Qed.
+
+  Lemma spread_equal h ps X : forall w, sound_world w -> at_ w h = X -> (forall p, In p ps -> at_ w p ≤ X) ->
+    at_ (spread h ps w) h = X /\
+    forall p, In p ps \/ at_ w p = X -> at_ (spread h ps w) p = X.
+  Proof.
+    induction ps as [| q ps IH]; intros w S EH L; simpl.
+    { split; auto. now intros p [[] |]. }
+    assert (EQ : at_ (pulled w q h) q = X).
+    { rewrite pulled_state, eqb_refl, EH by auto. apply below_iff_le.
+      - rewrite <- EH. apply (state_wf _ S).
+      - apply le_agree. apply L. now left.
+      - apply L. now left. }
+    assert (E : forall p, at_ (pulled w q h) p = X \/ at_ (pulled w q h) p = at_ w p).
+    { intros p. destruct (eq_dec p q) as [-> | N]; auto. right. rewrite pulled_state by auto.
+      apply eqb_neq in N. now rewrite N. }
+    destruct (IH (pulled w q h)) as [H A].
+    - now apply pulled_sound.
+    - destruct (E h); congruence.
+    - intros p I. destruct (E p) as [-> | ->]; [apply le_refl | apply L; now right].
+    - split; auto. intros p [[-> | I] | EP]; auto. apply A. right. destruct (E p); congruence.
+  Qed.
+
+  (** [SYNC-5] [CHECK-6] So from every moment of a run everybody is made equal by way of one, whatever was lost. *)
+  Theorem hub_makes_equal es h ps :
+    let w := spread h ps (gather h ps (run es)) in
+    (exists es', w = run (es ++ es')) /\ forall p, In p ps -> at_ w p = at_ w h.
+  Proof.
+    intros w. split.
+    - assert (F : forall (f : World -> Replica -> list event) l w0, exists es',
+        fold_left (fun w p => fold_left step (f w p) w) l w0 = fold_left step es' w0).
+      { intros f l. induction l as [| p l IH]; intros w0; simpl; [now exists [] |].
+        destruct (IH (fold_left step (f w0 p) w0)) as (es' & ->). exists (f w0 p ++ es').
+        now rewrite fold_left_app. }
+      destruct (F (fun w p => pull w h p) ps (run es)) as (e1 & E1).
+      destruct (F (fun w p => pull w p h) ps (gather h ps (run es))) as (e2 & E2).
+      exists (e1 ++ e2). unfold w, spread, pulled. rewrite E2. unfold gather, pulled. rewrite E1.
+      unfold run. now rewrite !fold_left_app.
+    - destruct (gathered h ps (run es) (run_sound es)) as (S & L & O & A).
+      destruct (spread_equal h ps _ _ S eq_refl) as [H B].
+      + intros p I. destruct (eq_dec p h) as [-> | N]; [apply le_refl |]. rewrite (O p N). auto.
+      + intros p I. unfold w. rewrite H. auto.
   Qed.
 
   (** [STATE-3] A state only moves forwards in a run. *)
