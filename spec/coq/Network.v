@@ -514,3 +514,28 @@ Theorem fresh_incarnation_converges :
   let d3 := delta D {| me := next_incarnation (replica (r 1 0)); time_ns := 0 |} write bottom in
   ((bottom ⊔ d0 ⊔ d1) ⊔ d2) ⊔ d3 = ((bottom ⊔ d0 ⊔ d1) ⊔ d3) ⊔ d2.
 Proof. now apply state_eqb_eq. Qed.
+
+(** ** [SYNC-2] A run in which a context is no digest *)
+
+(** r1 adds two vertices and an edge r1.5 between them, and moves it twice: to r1.6, to r1.7. r2 receives all
+    deltas but that of the first move. Both have seen r1.1 to r1.7; r1 holds r1.7, r2 holds r1.5 as well. *)
+Module Moved.
+  Definition p1 : Replica := replica (r 1 0).
+  Definition p2 : Replica := replica (r 2 0).
+  Definition key (label : Name) : Key := {| key_from := r 1 1; key_to := r 1 3; key_label := label |}.
+  Definition authored : list event :=
+    [Mutate p1 0 (AddVertex "room"%string "a"%string None empty ROOT "in"%string true empty);
+     Mutate p1 0 (AddVertex "room"%string "b"%string None empty ROOT "in"%string true empty);
+     Mutate p1 0 (AddEdge (key "near"%string) empty);
+     Mutate p1 0 (MoveEdge (key "near"%string) (key "at"%string) empty);
+     Mutate p1 0 (MoveEdge (key "at"%string) (key "by"%string) empty)].
+  Definition received : list State :=
+    match messages (run D authored) with [m5; m4; m3; m2; m1] => [m1; m2; m3; m5] | _ => [] end.
+  Definition w : World := run D (authored ++ map (Deliver p2) received).
+End Moved.
+
+Theorem equal_contexts_in_a_run :
+  context (at_ Moved.w Moved.p1) = context (at_ Moved.w Moved.p2) /\
+  holds (at_ Moved.w Moved.p1) (r 1 5) = false /\ holds (at_ Moved.w Moved.p2) (r 1 5) = true /\
+  holds (at_ Moved.w Moved.p1) (r 1 7) = true /\ holds (at_ Moved.w Moved.p2) (r 1 7) = true.
+Proof. split; [now apply entries_injective; vm_compute | repeat split; now vm_compute]. Qed.
