@@ -90,6 +90,31 @@ Proof.
     apply pass_from in G. unfold get in G. congruence.
 Qed.
 
+(** The same by store and context apart, as an implementation has it: this is a round of [State::close]. *)
+Definition pass_parts (X : State) : State :=
+  {| store := tabulate (fun d => match get X d with
+       | Some x => if stranded X x then None else Some x
+       | None => None
+       end) (keys (store X));
+     context := context X |}.
+
+Theorem pass_is_pass_parts X : held_seen X -> pass_parts X = pass X.
+Proof.
+  intros W.
+  assert (G : forall d, get (pass_parts X) d =
+    match get X d with Some x => if stranded X x then None else Some x | None => None end).
+  { intros d. unfold pass_parts. unfold get at 1. simpl. rewrite find_tabulate.
+    destruct (member d (keys (store X))) eqn:M; auto.
+    rewrite <- not_true_iff_false, member_in, in_keys in M. unfold get.
+    destruct (find (store X) d); auto. now destruct M. }
+  apply state_ext; auto using held_seen_pass.
+  - intros d. unfold holds. rewrite G. intros H. apply W. unfold holds. now destruct (get X d).
+  - intros d. rewrite cond_pass. specialize (W d). unfold cond, holds in *. rewrite G.
+    change (seen (pass_parts X) d) with (seen X d).
+    destruct (get X d) as [x |]; [| now destruct (seen X d)].
+    destruct (stranded X x); auto. now rewrite W.
+Qed.
+
 (** ** Closure reaches the fixed point *)
 
 Theorem close_closed X : closed (close X).
