@@ -1,0 +1,568 @@
+(** * The view (view.md, invariants.md)
+
+    A function of a state and a dictionary, over lists: it runs. The theorems hold of *any* state that holds
+    nothing under ROOT's dot, as every well-formed one (STATE-4): reachable or not, closed or not. *)
+
+From DSR Require Export Stamps Forest.
+From Coq Require Import Permutation Relations.
+
+(** ** Choosing by rank *)
+
+Section Best.
+  Context {A K : Type} `{Ordered K} (f : A -> K).
+
+  (** Nothing listed is greater, or nothing is less. *)
+  Definition is_greatest (l : list A) (a : A) : bool := forallb (fun b => negb (ltb (f a) (f b))) l.
+  Definition is_least (l : list A) (a : A) : bool := forallb (fun b => negb (ltb (f b) (f a))) l.
+
+  Lemma not_less_trans x y z : ltb x y = false -> ltb y z = false -> ltb x z = false.
+  Proof.
+    rewrite <- !not_true_iff_false, !ltb_lt. intros A1 A2 L. destruct (cmp x y) eqn:E; try easy.
+    - apply cmp_eq in E. now subst.
+    - apply cmp_gt_lt in E. apply A2. eapply cmp_trans; eauto.
+  Qed.
+
+  Lemma ltb_irrefl x : ltb x x = false.
+  Proof. unfold ltb. now rewrite cmp_refl. Qed.
+
+  Lemma ltb_asym x y : ltb x y = true -> ltb y x = false.
+  Proof. unfold ltb. rewrite (cmp_sym x y). now destruct (cmp x y). Qed.
+
+  Lemma ltb_total x y : ltb x y = false -> ltb y x = false -> x = y.
+  Proof. unfold ltb. rewrite (cmp_sym x y), <- (cmp_eq x y). now destruct (cmp x y). Qed.
+
+  Lemma is_greatest_spec l a : is_greatest l a = true <-> forall b, In b l -> ltb (f a) (f b) = false.
+  Proof. unfold is_greatest. rewrite forallb_forall. now setoid_rewrite negb_true_iff. Qed.
+
+  Lemma is_least_spec l a : is_least l a = true <-> forall b, In b l -> ltb (f b) (f a) = false.
+  Proof. unfold is_least. rewrite forallb_forall. now setoid_rewrite negb_true_iff. Qed.
+
+  Lemma greatest_exists l : l <> [] -> exists a, In a l /\ is_greatest l a = true.
+  Proof.
+    setoid_rewrite is_greatest_spec. induction l as [| b l IH]; [easy |]. intros _. destruct l as [| c l'].
+    - exists b. simpl. split; auto. intros ? [<- | []]. apply ltb_irrefl.
+    - destruct IH as (a & I & G); [easy |]. destruct (ltb (f a) (f b)) eqn:L.
+      + exists b. split; [now left |]. intros d [<- | J]; [apply ltb_irrefl |].
+        eapply not_less_trans; [apply ltb_asym, L | auto].
+      + exists a. split; [now right |]. intros d [<- | J]; auto.
+  Qed.
+
+  Lemma least_exists l : l <> [] -> exists a, In a l /\ is_least l a = true.
+  Proof.
+    setoid_rewrite is_least_spec. induction l as [| b l IH]; [easy |]. intros _. destruct l as [| c l'].
+    - exists b. simpl. split; auto. intros ? [<- | []]. apply ltb_irrefl.
+    - destruct IH as (a & I & G); [easy |]. destruct (ltb (f b) (f a)) eqn:L.
+      + exists b. split; [now left |]. intros d [<- | J]; [apply ltb_irrefl |].
+        eapply not_less_trans; [| apply ltb_asym, L]. auto.
+      + exists a. split; [now right |]. intros d [<- | J]; auto.
+  Qed.
+
+  (** Sorted descending. *)
+  Fixpoint file (a : A) (l : list A) : list A :=
+    match l with
+    | [] => [a]
+    | b :: rest => if ltb (f a) (f b) then b :: file a rest else a :: l
+    end.
+  Definition descending (l : list A) : list A := fold_right file [] l.
+
+  Lemma file_permutation a l : Permutation (a :: l) (file a l).
+  Proof.
+    induction l as [| b l IH]; simpl; auto. destruct ltb; auto.
+    eapply perm_trans; [apply perm_swap | auto].
+  Qed.
+
+  Lemma descending_permutation l : Permutation l (descending l).
+  Proof.
+    induction l as [| a l IH]; simpl; auto. eapply perm_trans; [| apply file_permutation]. auto.
+  Qed.
+
+  Lemma descending_in l a : In a (descending l) <-> In a l.
+  Proof. split; apply Permutation_in; [apply Permutation_sym |]; apply descending_permutation. Qed.
+
+  Definition sorted : list A -> Prop := ForallOrdPairs (fun a b => ltb (f a) (f b) = false).
+
+  Lemma file_sorted a l : sorted l -> sorted (file a l).
+  Proof.
+    induction 1 as [| b l F S IH]; simpl; [repeat constructor |]. destruct (ltb (f a) (f b)) eqn:L.
+    - constructor; auto. rewrite Forall_forall in *. intros c I.
+      apply (Permutation_in _ (Permutation_sym (file_permutation a l))) in I as [<- | I]; auto.
+      now apply ltb_asym.
+    - constructor; [| now constructor]. constructor; auto. rewrite Forall_forall in *. intros c I.
+      eapply not_less_trans; eauto.
+  Qed.
+
+  Lemma descending_sorted l : sorted (descending l).
+  Proof. induction l; simpl; [constructor | now apply file_sorted]. Qed.
+End Best.
+
+(** ** Claims *)
+
+(** A record with its dot. *)
+Definition Claim : Type := Dot * record.
+Definition from (c : Claim) : Dot := match snd c with Edge f _ _ _ => f | _ => ROOT end.
+Definition to (c : Claim) : Dot := match snd c with Edge _ t _ _ => t | _ => ROOT end.
+Definition label (c : Claim) : Name := match snd c with Edge _ _ l _ => l | _ => ""%string end.
+Definition key (c : Claim) : Key := {| key_from := from c; key_to := to c; key_label := label c |}.
+(** [STAMP-2] *)
+Definition claim_rank (c : Claim) : Rank := rank_of (fst c) (snd c).
+
+(** [VIEW-1.1] In the graph are ROOT and every vertex held. *)
+Definition in_graph (X : State) (d : Dot) : bool :=
+  is_root d || match get X d with Some (Vertex _ _ _ _) => true | _ => false end.
+Definition vertices (X : State) : list Dot :=
+  ROOT :: map fst (filter (fun c => match snd c with Vertex _ _ _ _ => true | _ => false end) (records X)).
+
+(** [VIEW-1.1] Visible are the edges held whose ends are both in the graph. (WF-4 has the ends differ; the
+    view asks again, and so keeps INV-4 of whatever it is given.) *)
+Definition is_visible (X : State) (c : Claim) : bool :=
+  match snd c with
+  | Edge f t _ _ => negb (eqb f t) && in_graph X f && in_graph X t
+  | _ => false
+  end.
+Definition visible (X : State) : list Claim := filter (is_visible X) (records X).
+
+(** ** What the view reports [VIEW-9] *)
+
+Inductive Rule := SameKey | Functional | RtParent.
+Inductive Repair :=
+| Superseded (hidden shown : Dot) (rule : Rule)
+| CycleBroken (hidden : Dot)
+| Detached (vertex : Dot)
+| Reattached (vertex : Dot)
+| NameClash (name : Name) (shown hidden : Dot)
+| Undeclared (write : Dot).
+
+(** [VIEW-4] *)
+Inductive Placement := Root | Child (parent edge : Dot) | DetachedTop | Outside.
+
+(** ** Components: whom edges join, whatever their direction *)
+
+Definition look (labels : list (Dot * Dot)) (v : Dot) : Dot :=
+  match lookup v labels with Some l => l | None => v end.
+Definition unite (edge : Dot * Dot) (labels : list (Dot * Dot)) : list (Dot * Dot) :=
+  let a := look labels (fst edge) in
+  let b := look labels (snd edge) in
+  map (fun p => (fst p, if eq_dec (snd p) a then b else snd p)) labels.
+(** Each vertex begins alone; an edge gives all of its source's component the label of its target's. *)
+Definition components (vs : list Dot) (edges : list (Dot * Dot)) : list (Dot * Dot) :=
+  fold_right unite (map (fun v => (v, v)) vs) edges.
+
+Definition joined (edges : list (Dot * Dot)) : Dot -> Dot -> Prop :=
+  clos_refl_sym_trans Dot (fun u v => In (u, v) edges).
+Definition ends (c : Claim) : Dot * Dot := (from c, to c).
+
+Section View.
+  Context (D : Dictionary).
+  (** The dictionary's word on an attribute: its name, and the type of the value. *)
+  Context (allows : Name -> N -> bool).
+
+  (** [VIEW-2] [VIEW-6] Symbolic claims: of competing ones the greatest is shown. *)
+  Definition symbolic (X : State) : list Claim := filter (fun c => negb (is_RT (label c))) (visible X).
+  Definition competitors (X : State) (c : Claim) : list Claim :=
+    filter (fun c' => competes D (key c) (snd c')) (symbolic X).
+  Definition wins (X : State) (c : Claim) : bool := is_greatest claim_rank (competitors X c) c.
+  Definition winners (X : State) : list Claim := filter (wins X) (symbolic X).
+  Definition rule_of (c : Claim) : Rule := if functional D (label c) then Functional else SameKey.
+  Definition superseded (X : State) : list Repair :=
+    flat_map (fun h => if wins X h then [] else
+      map (fun s => Superseded (fst h) (fst s) (rule_of h)) (filter (wins X) (competitors X h))) (symbolic X).
+
+  (** [VIEW-3] Kinematic claims, in descending rank, accepted greedily. *)
+  Definition kinematic (X : State) : list Claim :=
+    descending claim_rank (filter (fun c => is_RT (label c) && negb (is_root (to c))) (visible X)).
+  Definition accepted (X : State) : list Claim := Forest.shown eq_dec from to (kinematic X).
+  Definition refused (X : State) : list (Claim * reason Claim) := Forest.hidden eq_dec from to (kinematic X).
+  Definition refusal (h : Claim * reason Claim) : Repair :=
+    match snd h with
+    | OtherParent s => Superseded (fst (fst h)) (fst s) RtParent
+    | ClosesCycle _ => CycleBroken (fst (fst h))
+    end.
+
+  Definition shown (X : State) : list Claim := winners X ++ accepted X.
+
+  (** [VIEW-4] *)
+  Definition parent_of (X : State) (v : Dot) : option Claim := parent_claim eq_dec to (accepted X) v.
+  Definition has_child (X : State) (v : Dot) : bool := existsb (fun c => eqb (from c) v) (accepted X).
+  Definition placement (X : State) (v : Dot) : Placement :=
+    if is_root v then Root else
+    match parent_of X v with
+    | Some c => Child (from c) (fst c)
+    | None => if has_child X v then DetachedTop else Outside
+    end.
+  Definition is_detached (X : State) (v : Dot) : bool :=
+    match placement X v with DetachedTop => true | _ => false end.
+  Definition in_tree (X : State) (v : Dot) : bool :=
+    match placement X v with Outside => false | _ => true end.
+  Definition detached (X : State) : list Dot := filter (is_detached X) (vertices X).
+
+  (** [VIEW-5] *)
+  Definition labels (X : State) : list (Dot * Dot) := components (vertices X) (map ends (shown X)).
+  Definition reattached (X : State) : list Dot :=
+    let at_ := look (labels X) in
+    let lost := filter (is_detached X) (vertices X) in
+    filter (fun v =>
+      let own := filter (fun u => eqb (at_ u) (at_ v)) (vertices X) in
+      negb (eqb (at_ v) (at_ ROOT)) && forallb (fun u => negb (eqb (at_ u) (at_ v))) lost &&
+      is_least (rank X) own v) (vertices X).
+  Definition is_stranded (X : State) (v : Dot) : bool :=
+    is_detached X v || negb (eqb (look (labels X) v) (look (labels X) ROOT)).
+  Definition stranded_vertices (X : State) : list Dot := filter (is_stranded X) (vertices X).
+
+  (** [VIEW-7] *)
+  Definition name_of (X : State) (v : Dot) : option Name :=
+    match get X v with Some (Vertex _ n _ _) => Some n | _ => None end.
+  Definition reserved (n : Name) : bool := eqb n "root"%string || eqb n "world"%string.
+  Definition namesakes (X : State) (n : Name) : list Dot :=
+    filter (fun v => eqb (name_of X v) (Some n)) (vertices X).
+  Definition by_name (X : State) (n : Name) : option Dot :=
+    if reserved n then Some ROOT
+    else List.find (is_least (rank X) (namesakes X n)) (namesakes X n).
+  Definition clashes (X : State) : list Repair :=
+    flat_map (fun v =>
+      match name_of X v with
+      | Some n => match by_name X n with
+                  | Some w => if eqb w v then [] else [NameClash n w v]
+                  | None => []
+                  end
+      | None => []
+      end) (vertices X).
+
+  (** [VIEW-8] Attributes are looked for on vertices in the graph and on visible edge claims (VIEW-1.1). *)
+  Definition is_element (X : State) (d : Dot) : bool :=
+    in_graph X d || match get X d with Some x => is_visible X (d, x) | None => false end.
+  Definition is_live_write (X : State) (c : Claim) : bool :=
+    match snd c with Write t _ _ _ _ => is_element X t | _ => false end.
+  Definition declared (c : Claim) : bool :=
+    match snd c with Write _ n v _ _ => allows n (value_type v) | _ => false end.
+  Definition live_writes (X : State) : list Claim := filter (is_live_write X) (records X).
+  Definition shown_writes (X : State) : list Claim := filter declared (live_writes X).
+  (** All writes of an attribute, the greatest first, and the winner. *)
+  Definition attribute_writes (X : State) (target : Dot) (name : Name) : list Claim :=
+    descending claim_rank (filter (fun c => writes target name (snd c)) (shown_writes X)).
+  Definition attribute (X : State) (target : Dot) (name : Name) : option Claim :=
+    hd_error (attribute_writes X target name).
+  Definition undeclared (X : State) : list Claim := filter (fun c => negb (declared c)) (live_writes X).
+
+  Definition repairs (X : State) : list Repair :=
+    superseded X ++ map refusal (refused X) ++ map Detached (detached X) ++ map Reattached (reattached X)
+    ++ clashes X ++ map (fun c => Undeclared (fst c)) (undeclared X).
+
+  (** The view, as one value. *)
+  Record View := {
+    view_vertices : list Dot; view_edges : list Claim; view_placement : list (Dot * Placement);
+    view_stranded : list Dot; view_names : list (Dot * option Dot); view_writes : list Claim;
+    view_repairs : list Repair
+  }.
+  Definition view (X : State) : View := {|
+    view_vertices := vertices X;
+    view_edges := shown X;
+    view_placement := map (fun v => (v, placement X v)) (vertices X);
+    view_stranded := stranded_vertices X;
+    view_names := map (fun v => (v, match name_of X v with Some n => by_name X n | None => None end)) (vertices X);
+    view_writes := shown_writes X;
+    view_repairs := repairs X
+  |}.
+
+  (** [VIEW-1] The view is total, as every function here; and what it shows depends on the records held and on
+      nothing else: not on how the state came about, nor on its context. *)
+  Theorem view_deterministic X Y : (forall d, get X d = get Y d) -> view X = view Y.
+  Proof.
+    intros E. apply fmap_ext in E. destruct X as [s c], Y as [s' c']; simpl in E; subst s'. reflexivity.
+  Qed.
+
+  (** ** What is visible *)
+
+  Lemma in_records X (c : Claim) : In c (records X) <-> get X (fst c) = Some (snd c).
+  Proof. destruct c. apply records_get. Qed.
+
+  Lemma vertices_in X v : In v (vertices X) <-> in_graph X v = true.
+  Proof.
+    unfold vertices, in_graph. rewrite orb_true_iff. unfold is_root. rewrite eqb_eq. simpl.
+    rewrite in_map_iff. split.
+    - intros [<- | (c & <- & I)]; auto. right. apply filter_In in I as [I E].
+      apply in_records in I. now rewrite I.
+    - intros [-> | E]; auto. right. destruct (get X v) as [x |] eqn:G; [| easy].
+      exists (v, x). split; auto. apply filter_In. split; auto. now apply in_records.
+  Qed.
+
+  Lemma visible_in X c : In c (visible X) <->
+    get X (fst c) = Some (snd c) /\ (exists s, snd c = Edge (from c) (to c) (label c) s) /\
+    from c <> to c /\ in_graph X (from c) = true /\ in_graph X (to c) = true.
+  Proof.
+    unfold visible. rewrite filter_In, in_records. unfold is_visible, from, to, label.
+    destruct (snd c) as [| f t l s |] eqn:E.
+    - split; [easy |]. now intros (_ & (s & F) & _).
+    - rewrite !andb_true_iff, negb_true_iff, eqb_neq. split.
+      + intros (G & (N & F) & T). repeat split; auto. now exists s.
+      + intros (G & _ & N & F & T). auto.
+    - split; [easy |]. now intros (_ & (s & F) & _).
+  Qed.
+
+  Lemma same_dot X c c' : In c (records X) -> In c' (records X) -> fst c = fst c' -> c = c'.
+  Proof. rewrite !in_records. destruct c, c'; simpl. intros G G' <-. congruence. Qed.
+
+  Lemma same_rank X c c' : In c (records X) -> In c' (records X) ->
+    ltb (claim_rank c) (claim_rank c') = false -> ltb (claim_rank c') (claim_rank c) = false -> c = c'.
+  Proof.
+    intros I I' L L'. apply (same_dot X); auto. pose proof (ltb_total _ _ L L') as E.
+    unfold claim_rank, rank_of in E. congruence.
+  Qed.
+
+  Lemma visible_records X c : In c (visible X) -> In c (records X).
+  Proof. now intros [I _]%filter_In. Qed.
+
+  Lemma symbolic_in X c : In c (symbolic X) <-> In c (visible X) /\ is_RT (label c) = false.
+  Proof. unfold symbolic. now rewrite filter_In, negb_true_iff. Qed.
+
+  Lemma kinematic_in X c :
+    In c (kinematic X) <-> In c (visible X) /\ is_RT (label c) = true /\ to c <> ROOT.
+  Proof.
+    unfold kinematic. rewrite descending_in, filter_In, andb_true_iff, negb_true_iff.
+    unfold is_root. now rewrite eqb_neq.
+  Qed.
+
+  Lemma accepted_kinematic X c : In c (accepted X) -> In c (kinematic X).
+  Proof.
+    intros I. eapply Permutation_in; [apply Permutation_sym, (shown_or_hidden eq_dec from to) |].
+    apply in_app_iff. now left.
+  Qed.
+
+  Lemma shown_visible X c : In c (shown X) -> In c (visible X).
+  Proof.
+    unfold shown. rewrite in_app_iff. intros [I | I].
+    - apply filter_In in I as [I _]. now apply symbolic_in in I.
+    - now apply accepted_kinematic, kinematic_in in I.
+  Qed.
+
+  (** The shown RT edges are the accepted claims. *)
+  Lemma shown_RT X c : In c (shown X) /\ is_RT (label c) = true <-> In c (accepted X).
+  Proof.
+    unfold shown. rewrite in_app_iff. split.
+    - intros [[I | I] R]; auto. apply filter_In in I as [I _]. apply symbolic_in in I as [_ N]. congruence.
+    - intros I. split; auto. now apply accepted_kinematic, kinematic_in in I.
+  Qed.
+
+  (** ** Nothing dangles [INV-2], no self-loops [INV-4], nothing enters ROOT *)
+
+  Theorem no_dangling_edge X c : In c (shown X) ->
+    get X (fst c) = Some (snd c) /\ In (from c) (vertices X) /\ In (to c) (vertices X).
+  Proof. intros I. apply shown_visible, visible_in in I. rewrite !vertices_in. tauto. Qed.
+
+  Theorem no_dangling_write X c : In c (shown_writes X) ->
+    exists target, In target (anchors (snd c)) /\
+      (In target (vertices X) \/ exists x, get X target = Some x /\ In (target, x) (visible X)).
+  Proof.
+    intros [[I L]%filter_In _]%filter_In. unfold is_live_write in L.
+    destruct (snd c) as [| | t n v z s]; try easy. exists t. split; [now left |].
+    apply orb_prop in L as [G | V]; [left; now apply vertices_in | right].
+    destruct (get X t) as [x |] eqn:G; [| easy]. exists x. split; auto.
+    apply filter_In. split; auto. now apply in_records.
+  Qed.
+
+  Theorem no_self_loop X c : In c (shown X) -> from c <> to c.
+  Proof. intros I. apply shown_visible, visible_in in I. tauto. Qed.
+
+  Theorem nothing_enters_root X c : In c (shown X) -> is_RT (label c) = true -> to c <> ROOT.
+  Proof.
+    intros I R. assert (A : In c (accepted X)) by now apply shown_RT.
+    now apply accepted_kinematic, kinematic_in in A.
+  Qed.
+
+  (** ** The kinematic tree [INV-3] [VIEW-3] [VIEW-4] *)
+
+  (** Taken in descending rank. *)
+  Theorem kinematic_sorted X : sorted claim_rank (kinematic X).
+  Proof. apply descending_sorted. Qed.
+
+  Theorem kinematic_forest X : forest eq_dec from to (accepted X).
+  Proof. apply shown_forest. Qed.
+
+  (** [INV-3] Unique parents and no cycle, whatever the direction. *)
+  Theorem unique_parent X c c' : In c (shown X) -> In c' (shown X) ->
+    is_RT (label c) = true -> is_RT (label c') = true -> to c = to c' -> c = c'.
+  Proof.
+    intros I I' R R' E. assert (A : In c (accepted X)) by now apply shown_RT.
+    assert (A' : In c' (accepted X)) by now apply shown_RT.
+    destruct (proj1 (forest_iff eq_dec from to _) (kinematic_forest X)) as [U _].
+    clear - A A' E U. unfold unique_parents in U. induction (accepted X) as [| a l IH]; [easy |].
+    inversion U as [| ? ? N U']; subst. destruct A as [-> | A], A' as [-> | A']; auto.
+    - exfalso. apply N. rewrite E. now apply in_map.
+    - exfalso. apply N. rewrite <- E. now apply in_map.
+  Qed.
+
+  Theorem kinematic_acyclic X : acyclic from to (accepted X) /\ acyclic_undirected from to (accepted X).
+  Proof.
+    split; [eapply forest_iff | eapply forest_iff_undirected]; apply kinematic_forest.
+  Qed.
+
+  Lemma parent_of_child X v c : parent_of X v = Some c -> In c (accepted X) /\ to c = v.
+  Proof. intros P. now apply parent_claim_some in P. Qed.
+
+  Lemma parent_of_none X v : parent_of X v = None <-> forall c, In c (accepted X) -> to c <> v.
+  Proof. now apply (parent_claim_none eq_dec to). Qed.
+
+  Lemma has_child_iff X v : has_child X v = true <-> exists c, In c (accepted X) /\ from c = v.
+  Proof. unfold has_child. rewrite existsb_exists. now setoid_rewrite eqb_eq. Qed.
+
+  (** [VIEW-4] Each vertex is exactly one of four. *)
+  Theorem placement_spec X v :
+    match placement X v with
+    | Root => v = ROOT
+    | Child p e => v <> ROOT /\ exists c, In c (accepted X) /\ fst c = e /\ from c = p /\ to c = v
+    | DetachedTop => v <> ROOT /\ (forall c, In c (accepted X) -> to c <> v) /\
+                     exists c, In c (accepted X) /\ from c = v
+    | Outside => v <> ROOT /\ forall c, In c (accepted X) -> to c <> v /\ from c <> v
+    end.
+  Proof.
+    unfold placement. destruct (is_root v) eqn:R; [now apply eqb_eq |]. apply eqb_neq in R.
+    destruct (parent_of X v) as [c |] eqn:P.
+    - apply parent_of_child in P as [I E]. split; auto. exists c. auto.
+    - rewrite parent_of_none in P. destruct (has_child X v) eqn:C.
+      + apply has_child_iff in C. auto.
+      + split; auto. intros c I. split; auto. intros E.
+        rewrite (proj2 (has_child_iff X v)) in C by eauto. discriminate.
+  Qed.
+
+  Lemma is_detached_iff X v : is_detached X v = true <->
+    v <> ROOT /\ (forall c, In c (accepted X) -> to c <> v) /\ exists c, In c (accepted X) /\ from c = v.
+  Proof.
+    unfold is_detached. pose proof (placement_spec X v) as P.
+    destruct (placement X v); (split; [try easy | intros (N & M & c & I & E)]); auto.
+    - destruct P as (_ & c' & I' & _ & _ & E'). now apply M in I'.
+    - destruct P as [_ P]. now apply P in I.
+  Qed.
+
+  Lemma detached_in X v : In v (detached X) <-> is_detached X v = true.
+  Proof.
+    unfold detached. rewrite filter_In. split; [tauto |]. intros P. split; auto. apply vertices_in.
+    apply is_detached_iff in P as (_ & _ & c & I & <-). apply accepted_kinematic, kinematic_in in I as [I _].
+    now apply visible_in in I.
+  Qed.
+
+  Lemma reported_detached X v : In (Detached v) (repairs X) <-> is_detached X v = true.
+  Proof.
+    rewrite <- detached_in. unfold repairs. rewrite !in_app_iff, !in_map_iff. split.
+    - intros [I | [I | [I | [I | [I | I]]]]].
+      + apply in_flat_map in I as (c & _ & I). destruct wins; [easy |]. now apply in_map_iff in I as (? & ? & _).
+      + destruct I as ((c & []) & E & _); easy.
+      + now destruct I as (w & [= <-] & I).
+      + now destruct I as (w & ? & _).
+      + apply in_flat_map in I as (w & _ & I). destruct name_of; [| easy]. destruct by_name; [| easy].
+        destruct eqb; [easy |]. destruct I as [| []]; easy.
+      + now destruct I as (w & ? & _).
+    - intros I. right; right; left. eauto.
+  Qed.
+
+  (** [INV-3] Every way up ends at ROOT or at a reported detached vertex, which hangs from ROOT. *)
+  Theorem way_up_ends X v : in_tree X v = true ->
+    exists t, up from to (accepted X) v t /\ (t = ROOT \/ In (Detached t) (repairs X)).
+  Proof.
+    intros T. exists (top eq_dec from to (accepted X) v). pose proof (kinematic_forest X) as F.
+    split; [now apply up_to_top |]. destruct (eq_dec (top eq_dec from to (accepted X) v) ROOT) as [-> | N]; auto.
+    right. apply reported_detached, is_detached_iff. split; [auto | split].
+    - intros c I. now apply top_has_no_parent.
+    - pose proof (up_to_top v F) as U. apply clos_rt_rtn1 in U.
+      inversion U as [E | y z (c & I & _ & E) _]; [| now exists c].
+      unfold in_tree in T. pose proof (placement_spec X v) as P. destruct (placement X v).
+      + congruence.
+      + destruct P as (_ & c & I & _ & _ & E'). exfalso.
+        apply (top_has_no_parent v c F I). congruence.
+      + destruct P as (_ & _ & c & I & E'). exists c. split; auto. congruence.
+      + easy.
+  Qed.
+
+  (** [INV-3] The shown RT edges together with the reported detachments are one tree: their relation has
+      unique parents and no cycle, its only top is ROOT. *)
+  Definition tree_edges (X : State) : list (Dot * Dot) :=
+    map (fun v => (ROOT, v)) (nodup eq_dec (detached X)) ++ map ends (accepted X).
+
+  Lemma tree_step X u w : step fst snd (tree_edges X) u w <->
+    step from to (accepted X) u w \/ (w = ROOT /\ is_detached X u = true).
+  Proof.
+    unfold step, tree_edges. setoid_rewrite in_app_iff. split.
+    - intros (e & [I | I] & <- & <-); apply in_map_iff in I as (c & <- & I); simpl.
+      + right. split; auto. now apply detached_in, (nodup_In eq_dec).
+      + left. exists c. auto.
+    - intros [(c & I & <- & <-) | [-> I]].
+      + exists (ends c). split; auto. right. now apply in_map.
+      + exists (ROOT, u). split; auto. left. apply in_map_iff. exists u. split; auto.
+        now apply nodup_In, detached_in.
+  Qed.
+
+  Lemma root_has_no_parent X w : ~ step fst snd (tree_edges X) ROOT w.
+  Proof.
+    rewrite tree_step. intros [(c & I & E & _) | [_ I]].
+    - apply accepted_kinematic, kinematic_in in I. tauto.
+    - apply is_detached_iff in I. tauto.
+  Qed.
+
+  Theorem one_tree_rooted_at_root X :
+    unique_parents snd (tree_edges X) /\ acyclic fst snd (tree_edges X) /\
+    forall v, in_tree X v = true -> up fst snd (tree_edges X) v ROOT.
+  Proof.
+    destruct (proj1 (forest_iff eq_dec from to _) (kinematic_forest X)) as [U A]. split; [| split].
+    - unfold unique_parents, tree_edges. rewrite map_app, !map_map. simpl. rewrite map_id.
+      assert (G : forall l l' : list Dot, NoDup l -> NoDup l' -> (forall x, In x l -> ~ In x l') -> NoDup (l ++ l')).
+      { intros l l' N N' S. induction N as [| x l Hx N IH]; simpl; auto. constructor.
+        - rewrite in_app_iff. intros [I | I]; [auto | apply (S x); simpl; auto].
+        - apply IH. intros y I. apply S. now right. }
+      apply G; [apply NoDup_nodup | exact U |].
+      intros v I J. apply nodup_In, detached_in, is_detached_iff in I as (_ & N & _).
+      apply in_map_iff in J as (c & E & J). now apply N in J.
+    - assert (R : forall u w, clos_trans Dot (step fst snd (tree_edges X)) u w -> u <> ROOT).
+      { intros u w T. apply clos_trans_t1n in T. destruct T as [y S | y z S _]; intros ->;
+          now apply root_has_no_parent in S. }
+      assert (K : forall u w, clos_trans Dot (step fst snd (tree_edges X)) u w ->
+                  clos_trans Dot (step from to (accepted X)) u w \/ w = ROOT).
+      { induction 1 as [u w S | u w z T1 I1 T2 I2].
+        - apply tree_step in S as [S | [-> _]]; [left; now apply t_step | now right].
+        - destruct I1 as [I1 | ->]; [| now apply R in T2]. destruct I2 as [I2 | ->]; auto.
+          left. eapply t_trans; eauto. }
+      intros v T. pose proof (R _ _ T). apply K in T as [T |]; [| auto]. now apply A in T.
+    - intros v T. destruct (way_up_ends X v T) as (t & W & E).
+      assert (L : up fst snd (tree_edges X) v t).
+      { clear - W. induction W as [u w S | |]; [apply rt_step, tree_step; auto | apply rt_refl |].
+        eapply rt_trans; eauto. }
+      destruct E as [-> | E]; auto. eapply rt_trans; [exact L |]. apply rt_step, tree_step. right.
+      split; auto. now apply reported_detached.
+  Qed.
+
+  (** [VIEW-3] No hidden kinematic claim could be added to those accepted. *)
+  Theorem maximal X h why : In (h, why) (refused X) -> ~ forest eq_dec from to (h :: accepted X).
+  Proof. apply acceptance_maximal. Qed.
+
+  (** [VIEW-3] Every kinematic claim is shown, or hidden for the reason reported. *)
+  Theorem kinematic_shown_or_refused X c : In c (kinematic X) ->
+    In c (accepted X) \/ exists why, In (c, why) (refused X).
+  Proof.
+    intros I. apply (Permutation_in _ (shown_or_hidden eq_dec from to (kinematic X))) in I.
+    apply in_app_iff in I as [I | I]; [auto | right]. apply in_map_iff in I as ([c' why] & <- & I). eauto.
+  Qed.
+
+  (** [VIEW-3] [VIEW-9] Why a kinematic claim is hidden: one shown, of greater rank, is its child's parent; or
+      others shown, all of greater rank, join its two ends. *)
+  Theorem refused_has_cause X h why : In (h, why) (refused X) ->
+    match why with
+    | OtherParent s =>
+        In s (accepted X) /\ to s = to h /\ ltb (claim_rank s) (claim_rank h) = false
+    | ClosesCycle _ => exists greater, incl greater (accepted X) /\
+        Forall (fun s => ltb (claim_rank s) (claim_rank h) = false) greater /\
+        connected from to greater (from h) (to h)
+    end.
+  Proof.
+    intros I. destruct (hidden_has_cause eq_dec from to _ _ _ I) as (b & a & E & C).
+    assert (G : forall s, In s (Forest.shown eq_dec from to b) -> ltb (claim_rank s) (claim_rank h) = false).
+    { intros s J. assert (Hb : In s b).
+      { eapply Permutation_in; [apply Permutation_sym, (shown_or_hidden eq_dec from to) |].
+        apply in_app_iff. now left. }
+      pose proof (kinematic_sorted X) as S. unfold sorted in S. rewrite E in S. clear - S Hb.
+      induction b as [| x b IH]; [easy |]. simpl in S. inversion S as [| ? ? F S']; subst.
+      destruct Hb as [<- | Hb]; [| now apply IH]. rewrite Forall_forall in F. apply F, in_app_iff. simpl. auto. }
+    destruct why as [s |].
+    - destruct C as (Hb & Hs & T). auto.
+    - destruct C as [_ C]. exists (Forest.shown eq_dec from to b). repeat split; auto.
+      + intros s J. unfold accepted. rewrite E. unfold Forest.shown. rewrite grow_app. now apply grow_keeps.
+      + now apply Forall_forall.
+  Qed.
+(*MORE*)
+End View.
