@@ -564,5 +564,284 @@ Section View.
       + intros s J. unfold accepted. rewrite E. unfold Forest.shown. rewrite grow_app. now apply grow_keeps.
       + now apply Forall_forall.
   Qed.
+
+  (** ** Paths to ROOT [INV-1] [VIEW-5] *)
+
+  Lemma lookup_map (g : Dot -> Dot) (l : list (Dot * Dot)) v :
+    lookup v (map (fun p => (fst p, g (snd p))) l) = option_map g (lookup v l).
+  Proof. induction l as [| [a b] l IH]; simpl; auto. now destruct (eqb v a). Qed.
+
+  Lemma lookup_some {V} v (l : list (Dot * V)) : In v (map fst l) -> exists b, lookup v l = Some b.
+  Proof.
+    induction l as [| [a b] l IH]; simpl; [easy |]. intros I. destruct (eqb v a) eqn:E; [eauto |].
+    apply eqb_neq in E. apply IH. intuition congruence.
+  Qed.
+
+  Lemma lookup_listed {V} v b (l : list (Dot * V)) : lookup v l = Some b -> In v (map fst l).
+  Proof.
+    induction l as [| [a c] l IH]; simpl; [easy |]. destruct (eqb v a) eqn:E; auto.
+    apply eqb_eq in E. auto.
+  Qed.
+
+  Lemma unite_keys e l : map fst (unite e l) = map fst l.
+  Proof. unfold unite. now rewrite map_map. Qed.
+
+  (** Two vertices have one label exactly if edges join them. *)
+  Theorem components_spec vs edges :
+    (forall e, In e edges -> In (fst e) vs /\ In (snd e) vs) ->
+    forall u v, look (components vs edges) u = look (components vs edges) v <-> joined edges u v.
+  Proof.
+    intros B.
+    enough (G : (forall v, In v vs <-> In v (map fst (components vs edges))) /\
+                (forall v, In v vs -> In (look (components vs edges) v) vs) /\
+                (forall u v, look (components vs edges) u = look (components vs edges) v <-> joined edges u v))
+      by tauto.
+    induction edges as [| e edges IH].
+    - assert (L : forall v, look (components vs []) v = v).
+      { intros v. unfold look, components. simpl. destruct (lookup v _) as [b |] eqn:E; auto.
+        clear -E. induction vs as [| a l IH]; simpl in E; [easy |].
+        destruct (eqb v a) eqn:F; auto. apply eqb_eq in F. congruence. }
+      split; [| split].
+      + intros v. unfold components. simpl. rewrite map_map. simpl. now rewrite map_id.
+      + intros v. now rewrite L.
+      + intros u v. rewrite !L. split; [intros <-; apply rst_refl |].
+        intros J. induction J; congruence || easy.
+    - destruct IH as (K & R & S); [intros e' I; apply B; now right |].
+      destruct (B e (or_introl eq_refl)) as [Ba Bb].
+      set (f := look (components vs edges)) in *.
+      assert (L : forall v, look (components vs (e :: edges)) v =
+                  if eq_dec (f v) (f (fst e)) then f (snd e) else f v).
+      { intros v. change (components vs (e :: edges)) with (unite e (components vs edges)).
+        unfold look at 1, unite. fold f.
+        rewrite lookup_map with (g := fun b => if eq_dec b (f (fst e)) then f (snd e) else b).
+        destruct (lookup v (components vs edges)) as [b |] eqn:E.
+        - simpl. assert (Fv : f v = b) by (unfold f, look; now rewrite E). now rewrite Fv.
+        - assert (Fv : f v = v) by (unfold f, look; now rewrite E). simpl. rewrite Fv.
+          destruct (eq_dec v (f (fst e))) as [Q |]; auto. exfalso.
+          specialize (R _ Ba). rewrite <- Q in R. apply K, lookup_some in R as [b Lb]. congruence. }
+      split; [| split].
+      + intros v. rewrite K. change (components vs (e :: edges)) with (unite e (components vs edges)).
+        now rewrite unite_keys.
+      + intros v I. rewrite L. destruct eq_dec; auto.
+      + apply (merge_classes eq_dec) with (R := fun u v => In (u, v) edges) (f := f) (a := fst e) (b := snd e); auto.
+        intros u v. simpl. rewrite (surjective_pairing e) at 1. intuition congruence.
+  Qed.
+
+  (** [at_ X v] is the label of [v]'s component. *)
+  Definition at_ (X : State) : Dot -> Dot := look (labels X).
+
+  Lemma same_component X u v : at_ X u = at_ X v <-> joined (map ends (shown X)) u v.
+  Proof.
+    apply components_spec. intros e I. apply in_map_iff in I as (c & <- & I).
+    apply no_dangling_edge in I. simpl. tauto.
+  Qed.
+
+  Lemma reattached_in X v : In v (reattached X) <->
+    In v (vertices X) /\ at_ X v <> at_ X ROOT /\
+    (forall u, is_detached X u = true -> at_ X u <> at_ X v) /\
+    (forall u, In u (vertices X) -> at_ X u = at_ X v -> ltb (rank X u) (rank X v) = false).
+  Proof.
+    unfold reattached. rewrite filter_In, !andb_true_iff, negb_true_iff, eqb_neq, forallb_forall, is_least_spec.
+    fold (at_ X). split.
+    - intros (I & (N & H) & L). repeat split; auto.
+      + intros u P. apply eqb_neq, negb_true_iff, H. now apply detached_in.
+      + intros u J E. apply L, filter_In. split; auto. now apply eqb_eq.
+    - intros (I & N & H & L). repeat split; auto.
+      + intros u P. apply detached_in in P. now apply negb_true_iff, eqb_neq, H.
+      + intros u P. apply filter_In in P as [P E]. apply eqb_eq in E. auto.
+  Qed.
+
+  Lemma reported_reattached X v : In (Reattached v) (repairs X) <-> In v (reattached X).
+  Proof.
+    unfold repairs. rewrite !in_app_iff, !in_map_iff. split.
+    - intros [I | [I | [I | [I | [I | I]]]]].
+      + apply in_flat_map in I as (c & _ & I). destruct wins; [easy |]. now apply in_map_iff in I as (? & ? & _).
+      + destruct I as ((c & []) & E & _); easy.
+      + now destruct I as (w & ? & _).
+      + now destruct I as (w & [= <-] & I).
+      + apply in_flat_map in I as (w & _ & I). destruct name_of; [| easy]. destruct by_name; [| easy].
+        destruct eqb; [easy |]. destruct I as [| []]; easy.
+      + now destruct I as (w & ? & _).
+    - intros I. do 3 right. left. eauto.
+  Qed.
+
+  (** A step of a path: a shown edge, or the link of a repair that is reported. *)
+  Definition held_together (X : State) (u v : Dot) : Prop :=
+    In (u, v) (map ends (shown X)) \/
+    u = ROOT /\ (In (Detached v) (repairs X) \/ In (Reattached v) (repairs X)).
+
+  Lemma joined_held X u v : joined (map ends (shown X)) u v -> clos_refl_sym_trans Dot (held_together X) u v.
+  Proof.
+    intros J. induction J; [apply rst_step; now left | apply rst_refl | apply rst_sym; auto | eapply rst_trans; eauto].
+  Qed.
+
+  (** [INV-1] Every vertex has a path to ROOT over shown edges and reported links, whatever their direction. *)
+  Theorem path_to_root X v : In v (vertices X) -> clos_refl_sym_trans Dot (held_together X) v ROOT.
+  Proof.
+    intros I. destruct (eq_dec (at_ X v) (at_ X ROOT)) as [E | N]; [now apply joined_held, same_component |].
+    assert (V : forall u, at_ X u = at_ X v -> held_together X ROOT u ->
+                clos_refl_sym_trans Dot (held_together X) v ROOT).
+    { intros u E H. eapply rst_trans; [apply joined_held, same_component; symmetry; exact E |].
+      apply rst_sym, rst_step, H. }
+    destruct (existsb (fun u => eqb (at_ X u) (at_ X v)) (detached X)) eqn:L.
+    - apply existsb_exists in L as (u & J & E). apply eqb_eq in E. apply (V u E). right. split; auto. left.
+      now apply reported_detached, detached_in.
+    - destruct (least_exists (rank X) (filter (fun u => eqb (at_ X u) (at_ X v)) (vertices X))) as (m & M & Lm).
+      { intros Z. assert (In v []); [| easy]. rewrite <- Z. apply filter_In. split; auto. apply eqb_refl. }
+      apply filter_In in M as [M E]. apply eqb_eq in E. apply (V m E). right. split; auto. right.
+      apply reported_reattached, reattached_in. rewrite E. repeat split; auto.
+      + intros u P F. apply not_true_iff_false in L. apply L, existsb_exists. exists u. split.
+        * now apply detached_in.
+        * now apply eqb_eq.
+      + intros u J F. rewrite is_least_spec in Lm. apply Lm, filter_In. split; auto. now apply eqb_eq.
+  Qed.
+
+  (** [VIEW-5] One vertex of a component is reported: the oldest. *)
+  Theorem reattached_once X u v : In u (reattached X) -> In v (reattached X) -> at_ X u = at_ X v -> u = v.
+  Proof.
+    rewrite !reattached_in. intros (I & N & _ & L) (J & M & _ & K) E.
+    pose proof (ltb_total _ _ (L _ J (eq_sym E)) (K _ I E)) as R. unfold rank in R.
+    assert (V : forall w, In w (vertices X) -> at_ X w <> at_ X ROOT -> exists x, get X w = Some x).
+    { intros w Iw Nw. apply vertices_in in Iw. unfold in_graph, is_root in Iw. apply orb_prop in Iw as [Z | Z].
+      - apply eqb_eq in Z. congruence.
+      - destruct (get X w); eauto; easy. }
+    destruct (V _ I N) as [x Gx], (V _ J M) as [y Gy]. rewrite Gx, Gy in R. now injection R.
+  Qed.
+
+  (** [VIEW-5] Stranded is what is detached, or has no path to ROOT over shown edges alone. *)
+  Theorem stranded_iff X v : is_stranded X v = true <->
+    is_detached X v = true \/ ~ joined (map ends (shown X)) v ROOT.
+  Proof.
+    unfold is_stranded. rewrite orb_true_iff, negb_true_iff, eqb_neq. fold (at_ X).
+    now rewrite same_component.
+  Qed.
+
+  (** ** Registers [VIEW-2] [VIEW-6] [INV-6] *)
+
+  Lemma competitors_in X c c' :
+    In c' (competitors X c) <-> In c' (symbolic X) /\ competes D (key c) (snd c') = true.
+  Proof. apply filter_In. Qed.
+
+  Lemma symbolic_key X c : In c (symbolic X) -> key_of (snd c) = Some (key c).
+  Proof. intros I. apply symbolic_in in I as [I _]. apply visible_in in I as (_ & (s & E) & _). now rewrite E. Qed.
+
+  Lemma competes_refl X c : In c (symbolic X) -> competes D (key c) (snd c) = true.
+  Proof. intros I. eapply competes_own, symbolic_key, I. Qed.
+
+  Lemma competitors_same X c c' d : In c (symbolic X) -> In c' (symbolic X) ->
+    competes D (key c) (snd c') = true -> In d (competitors X c) <-> In d (competitors X c').
+  Proof.
+    intros I I' C. rewrite !competitors_in. split; intros [J B]; split; auto.
+    - eapply competes_trans; [apply (symbolic_key X d J) | apply (symbolic_key X c I) | exact B |].
+      now rewrite (competes_sym D _ _ _ _ (symbolic_key X c' I') (symbolic_key X c I)).
+    - eapply competes_trans; [apply (symbolic_key X d J) | apply (symbolic_key X c' I') | exact B | exact C].
+  Qed.
+
+  Lemma records_symbolic X c : In c (symbolic X) -> In c (records X).
+  Proof. intros I. apply symbolic_in in I as [I _]. now apply visible_records. Qed.
+
+  (** [INV-6] [VIEW-2] [VIEW-6] Of competing claims one is shown, *)
+  Theorem one_shown X c c' : In c (winners X) -> In c' (winners X) ->
+    competes D (key c) (snd c') = true -> c = c'.
+  Proof.
+    intros [I W]%filter_In [I' W']%filter_In C. unfold wins in *. rewrite is_greatest_spec in *.
+    apply (same_rank X); auto using records_symbolic.
+    - apply W, competitors_in. auto.
+    - apply W', (competitors_same X c c'); auto. apply competitors_in. split; auto. now apply competes_refl with X.
+  Qed.
+
+  (** and it is the greatest. *)
+  Theorem winner_is_greatest X c c' : In c (winners X) -> In c' (symbolic X) ->
+    competes D (key c) (snd c') = true -> ltb (claim_rank c) (claim_rank c') = false.
+  Proof.
+    intros [I W]%filter_In I' C. unfold wins in W. rewrite is_greatest_spec in W.
+    apply W, competitors_in. auto.
+  Qed.
+
+  (** Each symbolic claim has a winner that it competes with. *)
+  Lemma winner_exists X c : In c (symbolic X) ->
+    exists w, In w (winners X) /\ In w (competitors X c) /\ wins X w = true.
+  Proof.
+    intros I. destruct (greatest_exists claim_rank (competitors X c)) as (w & J & G).
+    { intros Z. assert (In c []); [| easy]. rewrite <- Z. apply competitors_in.
+      split; auto. now apply competes_refl with X. }
+    assert (W : wins X w = true).
+    { unfold wins. rewrite is_greatest_spec in *. intros d Hd. apply G.
+      apply competitors_in in J as [J C]. now apply (competitors_same X c w d). }
+    exists w. repeat split; auto. apply filter_In. split; auto. now apply competitors_in in J.
+  Qed.
+
+  (** [VIEW-9] Each symbolic claim is shown, or reported with the greater one that is shown in its place; the
+      rule is the label's. *)
+  Theorem shown_or_superseded X h : In h (symbolic X) ->
+    In h (winners X) \/
+    exists s, In s (winners X) /\ competes D (key h) (snd s) = true /\
+      ltb (claim_rank h) (claim_rank s) = true /\ In (Superseded (fst h) (fst s) (rule_of h)) (repairs X).
+  Proof.
+    intros I. destruct (wins X h) eqn:W; [left; now apply filter_In | right].
+    destruct (winner_exists X h I) as (s & S & C & Ws). exists s. split; auto.
+    pose proof C as C'. apply competitors_in in C as [J C]. repeat split; auto.
+    - apply not_false_iff_true. intros L. apply not_true_iff_false in W. apply W. unfold wins in *.
+      rewrite is_greatest_spec in *. intros d Hd. eapply not_less_trans; [| apply Ws].
+      + destruct (ltb (claim_rank h) (claim_rank s)) eqn:F; auto.
+      + now apply (competitors_same X h s d).
+    - unfold repairs. rewrite in_app_iff. left. apply in_flat_map. exists h. split; auto. rewrite W.
+      apply in_map_iff. exists s. split; auto. now apply filter_In.
+  Qed.
+
+  (** ** Names [VIEW-7] *)
+
+  Lemma namesakes_in X n v : In v (namesakes X n) <-> In v (vertices X) /\ name_of X v = Some n.
+  Proof. unfold namesakes. now rewrite filter_In, eqb_eq. Qed.
+
+  (** A name finds the oldest of its vertices; the reserved ones find ROOT. *)
+  Theorem name_finds_oldest X n : reserved n = false ->
+    match by_name X n with
+    | Some w => In w (vertices X) /\ name_of X w = Some n /\
+        forall v, In v (vertices X) -> name_of X v = Some n -> ltb (rank X v) (rank X w) = false
+    | None => forall v, In v (vertices X) -> name_of X v <> Some n
+    end.
+  Proof.
+    intros R. unfold by_name. rewrite R. destruct (List.find _ _) as [w |] eqn:F.
+    - apply find_some in F as [I L]. apply namesakes_in in I as [I E]. repeat split; auto.
+      rewrite is_least_spec in L. intros v J Ev. apply L, namesakes_in. auto.
+    - intros v I E. destruct (least_exists (rank X) (namesakes X n)) as (m & M & L).
+      + intros Z. assert (In v []); [| easy]. rewrite <- Z. now apply namesakes_in.
+      + apply (find_none _ _ F) in M. congruence.
+  Qed.
+
+  Theorem reserved_finds_root X n : reserved n = true -> by_name X n = Some ROOT.
+  Proof. unfold by_name. now intros ->. Qed.
+
+  (** ** Attributes [VIEW-8] [INV-5] *)
+
+  Theorem shown_writes_declared X c : In c (shown_writes X) -> declared c = true.
+  Proof. now intros [_ E]%filter_In. Qed.
+
+  Lemma attribute_writes_in X t n c :
+    In c (attribute_writes X t n) <-> In c (shown_writes X) /\ writes t n (snd c) = true.
+  Proof. unfold attribute_writes. now rewrite descending_in, filter_In. Qed.
+
+  Theorem attribute_writes_sorted X t n : sorted claim_rank (attribute_writes X t n).
+  Proof. apply descending_sorted. Qed.
+
+  (** Readers get the greatest write of an attribute, if there is one; it is the only greatest. *)
+  Theorem attribute_is_greatest X t n :
+    match attribute X t n with
+    | Some c => In c (shown_writes X) /\ writes t n (snd c) = true /\
+        forall c', In c' (shown_writes X) -> writes t n (snd c') = true -> c' <> c ->
+          ltb (claim_rank c') (claim_rank c) = true
+    | None => forall c, In c (shown_writes X) -> writes t n (snd c) = false
+    end.
+  Proof.
+    unfold attribute. pose proof (attribute_writes_sorted X t n) as S.
+    pose proof (attribute_writes_in X t n) as M. destruct (attribute_writes X t n) as [| c l]; simpl.
+    - intros c I. apply not_true_iff_false. intros W. now apply (M c).
+    - destruct (proj1 (M c) (or_introl eq_refl)) as [I W]. repeat split; auto. intros c' I' W' N.
+      destruct (proj2 (M c') (conj I' W')) as [-> | J]; [easy |].
+      inversion S as [| ? ? F _]; subst. rewrite Forall_forall in F. specialize (F _ J).
+      apply not_false_iff_true. intros L. apply N. apply (same_rank X); auto;
+        eapply proj1, filter_In, proj1, filter_In; eassumption.
+  Qed.
 (*MORE*)
 End View.
