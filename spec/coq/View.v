@@ -843,5 +843,192 @@ Section View.
       apply not_false_iff_true. intros L. apply N. apply (same_rank X); auto;
         eapply proj1, filter_In, proj1, filter_In; eassumption.
   Qed.
-(*MORE*)
+
+  (** ** No needless repair [VIEW-10], and none is silent [VIEW-9] *)
+
+  (** What claims can break, said of the visible claims as they are: VIEW-9 lists the six. *)
+  Record unbroken (X : State) : Prop := {
+    one_edge_each_register : forall c c', In c (symbolic X) -> In c' (symbolic X) ->
+      competes D (key c) (snd c') = true -> c = c';
+    one_kinematic_parent : forall c c', In c (kinematic X) -> In c' (kinematic X) -> to c = to c' -> c = c';
+    one_kinematic_tree : forall c, In c (kinematic X) -> up from to (kinematic X) (from c) ROOT;
+    all_paths : forall v, In v (vertices X) -> joined (map ends (visible X)) v ROOT;
+    one_vertex_each_name : forall v w n, In v (vertices X) -> In w (vertices X) ->
+      name_of X v = Some n -> name_of X w = Some n -> v = w /\ reserved n = false;
+    all_declared : forall c, In c (live_writes X) -> declared c = true
+  }.
+
+  (** WF-4, of which INV-4 is a part. *)
+  Definition right_ends : State -> Prop := each_record edge_ends.
+
+  Lemma visible_split X c : right_ends X -> In c (visible X) -> In c (symbolic X) \/ In c (kinematic X).
+  Proof.
+    intros E I. rewrite symbolic_in, kinematic_in. destruct (is_RT (label c)) eqn:R; [right | left]; auto.
+    repeat split; auto. apply visible_in in I as (G & (s & F) & _). apply E in G. rewrite F in G.
+    apply eqb_eq in R. now apply G.
+  Qed.
+
+  Lemma flat_map_nil {A B} (f : A -> list B) l : flat_map f l = [] <-> forall a, In a l -> f a = [].
+  Proof.
+    induction l as [| a l IH]; simpl; [easy |]. split.
+    - intros [E F]%app_eq_nil b [<- | I]; auto. now apply IH.
+    - intros E. rewrite (E a) by auto. apply IH. auto.
+  Qed.
+
+  Lemma filter_nil {A} (p : A -> bool) l : filter p l = [] <-> forall a, In a l -> p a = false.
+  Proof.
+    induction l as [| a l IH]; simpl; [easy |]. destruct (p a) eqn:P; split; try easy.
+    - intros F. now rewrite (F a) in P by auto.
+    - intros E b [<- | I]; auto. now apply IH.
+    - intros F. apply IH. auto.
+  Qed.
+
+  Lemma map_nil {A B} (f : A -> B) l : map f l = [] <-> l = [].
+  Proof. now destruct l. Qed.
+
+  Lemma nodup_map {A B} (f : A -> B) l : NoDup l ->
+    (forall a b, In a l -> In b l -> f a = f b -> a = b) -> NoDup (map f l).
+  Proof.
+    induction 1 as [| a l N U IH]; simpl; intros J; constructor.
+    - rewrite in_map_iff. intros (b & E & I). apply N. rewrite <- (J b a); auto.
+    - apply IH. intros; apply J; auto.
+  Qed.
+
+  Lemma records_nodup X : NoDup (records X).
+  Proof. eapply NoDup_map_inv. apply (keys_nodup (store X)). Qed.
+
+  Lemma kinematic_nodup X : NoDup (kinematic X).
+  Proof.
+    eapply Permutation_NoDup; [apply descending_permutation |]. repeat apply NoDup_filter. apply records_nodup.
+  Qed.
+
+  Lemma no_up_from_root X w : ~ step from to (kinematic X) ROOT w.
+  Proof. intros (c & I & E & _). apply kinematic_in in I. tauto. Qed.
+
+  (** Ways up that end at ROOT, with one parent each, make no cycle. *)
+  Lemma rooted_acyclic X : unbroken X -> acyclic from to (kinematic X).
+  Proof.
+    intros U v T.
+    assert (F : forall u w w', step from to (kinematic X) u w -> step from to (kinematic X) u w' -> w = w').
+    { intros u w w' (c & I & E & <-) (c' & I' & E' & <-). now rewrite (one_kinematic_parent X U c c') by congruence. }
+    assert (G : forall u, up from to (kinematic X) u ROOT -> ~ clos_trans Dot (step from to (kinematic X)) u u).
+    { intros u H. apply clos_rt_rt1n in H. remember ROOT as t eqn:Z. induction H as [u | u w t S H IH].
+      - subst. intros C. apply clos_trans_t1n in C. destruct C; eapply no_up_from_root; eauto.
+      - intros C. apply (IH Z). apply clos_trans_t1n in C. inversion C as [y S' | y z S' C']; subst.
+        + rewrite (F _ _ _ S S') in *. apply t_step. congruence.
+        + rewrite (F _ _ _ S S') in *. apply clos_t1n_trans in C'. eapply t_trans; [exact C' |]. now apply t_step. }
+    apply (G v); auto. apply clos_trans_t1n in T.
+    assert (S : exists w, step from to (kinematic X) v w) by (inversion T; eauto).
+    destruct S as (w & c & I & <- & E). eapply rt_trans; [| apply (one_kinematic_tree X U c I)].
+    apply rt_step. exists c. auto.
+  Qed.
+
+  Lemma kinematic_unique X : unbroken X -> unique_parents to (kinematic X).
+  Proof. intros U. apply nodup_map; [apply kinematic_nodup | apply U]. Qed.
+
+  (** All claims are shown as they are. *)
+  Lemma all_win X c : unbroken X -> In c (symbolic X) -> In c (winners X).
+  Proof.
+    intros U I. apply filter_In. split; auto. apply is_greatest_spec. intros d [J C]%competitors_in.
+    rewrite <- (one_edge_each_register X U c d) by auto. apply ltb_irrefl.
+  Qed.
+
+  Lemma all_accepted X : unbroken X -> accepted X = rev (kinematic X) /\ refused X = [].
+  Proof. intros U. apply nothing_hidden; [now apply kinematic_unique | now apply rooted_acyclic]. Qed.
+
+  (** [VIEW-10] If the visible claims break nothing, the view shows them all, *)
+  Theorem unbroken_shows_all X c : right_ends X -> unbroken X -> In c (visible X) -> In c (shown X).
+  Proof.
+    intros E U I. unfold shown. apply in_app_iff. destruct (visible_split X c E I) as [S | K].
+    - left. now apply all_win.
+    - right. rewrite (proj1 (all_accepted X U)). now apply -> in_rev.
+  Qed.
+
+  Theorem unbroken_shows_all_writes X : unbroken X -> shown_writes X = live_writes X.
+  Proof.
+    intros U. pose proof (all_declared X U) as A. unfold shown_writes.
+    induction (live_writes X) as [| c l IH]; simpl; auto. rewrite A by now left.
+    f_equal. apply IH. intros; apply A. now right.
+  Qed.
+
+  Lemma named_finds X v n : In v (vertices X) -> name_of X v = Some n -> exists w, by_name X n = Some w.
+  Proof.
+    intros I E. destruct (reserved n) eqn:R; [exists ROOT; now apply reserved_finds_root |].
+    pose proof (name_finds_oldest X n R) as F. destruct (by_name X n); eauto. now apply F in E.
+  Qed.
+
+  (** and reports nothing. *)
+  Theorem unbroken_reports_nothing X : right_ends X -> unbroken X -> repairs X = [].
+  Proof.
+    intros E U. destruct (all_accepted X U) as [A R]. unfold repairs.
+    assert (P : forall v, is_detached X v = false).
+    { intros v. apply not_true_iff_false. rewrite is_detached_iff. intros (N & P & c & I & F).
+      rewrite A in P, I. apply in_rev in I. pose proof (one_kinematic_tree X U c I) as W. rewrite F in W.
+      apply clos_rt_rt1n in W. destruct W as [| w t (d & J & G & _) _]; [easy |]. apply (P d); auto.
+      now apply -> in_rev. }
+    assert (Z : superseded X = []).
+    { apply flat_map_nil. intros h I. apply (all_win X h U), filter_In in I as [_ W]. now rewrite W. }
+    rewrite Z, R. simpl. assert (Dt : detached X = []) by (apply filter_nil; auto). rewrite Dt. simpl.
+    assert (Rt : reattached X = []).
+    { destruct (reattached X) as [| v l] eqn:L; auto.
+      assert (I : In v (reattached X)) by (rewrite L; now left). apply reattached_in in I as (I & N & _).
+      exfalso. apply N. apply same_component. pose proof (all_paths X U v I) as J.
+      clear -E U J. induction J as [u w I | | |];
+        [| apply rst_refl | apply rst_sym; auto | eapply rst_trans; eauto].
+      apply rst_step. apply in_map_iff in I as (c & <- & I). apply in_map_iff. exists c. split; auto.
+      now apply unbroken_shows_all. }
+    rewrite Rt. simpl. assert (Cl : clashes X = []).
+    { apply flat_map_nil. intros v I. destruct (name_of X v) as [n |] eqn:Ev; auto.
+      destruct (one_vertex_each_name X U v v n) as [_ Rn]; auto.
+      pose proof (name_finds_oldest X n Rn) as F. destruct (by_name X n) as [w |]; auto.
+      destruct F as (J & Ew & _). rewrite (proj1 (one_vertex_each_name X U w v n J I Ew Ev)).
+      now rewrite eqb_refl. }
+    rewrite Cl. simpl. apply map_nil, filter_nil. intros c I. apply negb_false_iff. now apply U.
+  Qed.
+
+  (** [VIEW-9] A repair is never silent: what reports nothing breaks nothing. (ROOT has no record: STATE-4.) *)
+  Theorem silent_only_if_unbroken X : get X ROOT = None -> repairs X = [] -> unbroken X.
+  Proof.
+    intros NR Z. unfold repairs in Z.
+    apply app_eq_nil in Z as [Zs Z]. apply app_eq_nil in Z as [Zk Z]. apply app_eq_nil in Z as [Zd Z].
+    apply app_eq_nil in Z as [Zr Z]. apply app_eq_nil in Z as [Zc Zu]. apply map_nil in Zk, Zd, Zr, Zu.
+    assert (Win : forall c, In c (symbolic X) -> wins X c = true).
+    { intros c I. apply not_false_iff_true. intros W. apply flat_map_nil with (a := c) in Zs; auto.
+      rewrite W in Zs. apply map_nil in Zs. destruct (winner_exists X c I) as (w & _ & J & Ww).
+      pose proof (proj2 (filter_In (wins X) w (competitors X c)) (conj J Ww)) as Q. now rewrite Zs in Q. }
+    destruct (nothing_hidden_only_if eq_dec from to _ Zk) as [Up Ac].
+    destruct (nothing_hidden eq_dec Up Ac) as [A _]. fold (accepted X) in A.
+    assert (ND : forall v, ~ In (Detached v) (repairs X)).
+    { intros v I. apply reported_detached, detached_in in I. now rewrite Zd in I. }
+    split.
+    - intros c c' I I' C. apply one_shown with X; auto; apply filter_In; auto.
+    - intros c c' I I' E. rewrite in_rev, <- A, <- shown_RT in I, I'.
+      apply unique_parent with X; tauto.
+    - intros c I. destruct (way_up_ends X (from c)) as (t & W & [-> | T]); [| | now apply ND in T].
+      + unfold in_tree. pose proof (placement_spec X (from c)) as P. destruct (placement X (from c)); auto.
+        destruct P as [_ P]. destruct (P c) as [_ N]; [rewrite A, <- in_rev; auto | easy].
+      + eapply up_incl; [| exact W]. intros d. rewrite A. apply in_rev.
+    - intros v I. apply path_to_root in I. clear - I ND Zr. induction I as [u w [I | [_ [T | T]]] | | |].
+      + apply rst_step. apply in_map_iff in I as (c & <- & I). apply in_map, shown_visible, I.
+      + now apply ND in T.
+      + apply reported_reattached in T. now rewrite Zr in T.
+      + apply rst_refl.
+      + now apply rst_sym.
+      + eapply rst_trans; eauto.
+    - assert (F : forall v n, In v (vertices X) -> name_of X v = Some n -> by_name X n = Some v).
+      { intros v n I E. destruct (named_finds X v n I E) as (w & B).
+        apply flat_map_nil with (a := v) in Zc; auto. rewrite E, B in Zc. destruct (eqb w v) eqn:Q; [| easy].
+        apply eqb_eq in Q. congruence. }
+      intros v w n I J Ev Ew. split.
+      + apply F in Ev; auto. apply F in Ew; auto. congruence.
+      + apply not_true_iff_false. intros Rn. apply (reserved_finds_root X) in Rn. rewrite (F v n I Ev) in Rn.
+        injection Rn as ->. unfold name_of in Ev. now rewrite NR in Ev.
+    - intros c I. apply filter_nil with (a := c) in Zu; auto. now apply negb_false_iff.
+  Qed.
+
+  (** [VIEW-9] [VIEW-10] The view reports a repair exactly where the claims break something. *)
+  Theorem repairs_iff_broken X : get X ROOT = None -> right_ends X -> repairs X = [] <-> unbroken X.
+  Proof.
+    split; [now apply silent_only_if_unbroken | now apply unbroken_reports_nothing].
+  Qed.
 End View.
