@@ -1,0 +1,397 @@
+(** * One replica alone never sees a repair (VIEW-12), and the conditions of the six mutations
+
+    The conditions that mutations.md puts on each mutation ([accepts]) are questions to the author's view.
+    Here it is proved that they keep a view free of repairs, if it was so before and nothing is pending: hence
+    no sequence of accepted mutations, by whatever authors, one after the other, makes a view repair. *)
+
+From DSR Require Import Mutations.
+From DSR Require Export View.
+From Coq Require Import Permutation Relations.
+
+Section Sequential.
+  Context (D : Dictionary) (allows : Name -> N -> bool).
+
+  (** ** The conditions *)
+
+  (** [MUT-3.2] as far as the view can tell: limits (LIMIT-1 to LIMIT-6) only refuse more. *)
+  Definition attributes_ok (l : Attributes) : bool := forallb (fun e => allows (fst e) (value_type (snd e))) (entries l).
+
+  Definition has_key (k : Key) (c : Claim) : bool :=
+    eqb (from c) (key_from k) && eqb (to c) (key_to k) && eqb (label c) (key_label k).
+  Definition is_shown (X : State) (k : Key) : bool := existsb (has_key k) (shown D X).
+  (** Whether a source shows an edge of a label. *)
+  Definition is_taken (X : State) (source : Dot) (l : Name) : bool :=
+    existsb (fun c => eqb (from c) source && eqb (label c) l) (shown D X).
+
+  (** [MUT-2.1] [MUT-2.3] [MUT-2.4] [MUT-2.5] *)
+  Definition edge_possible (X : State) (k : Key) : bool :=
+    in_graph X (key_from k) && in_graph X (key_to k) && negb (eqb (key_from k) (key_to k)) &&
+    negb (is_shown X k) &&
+    if is_RT (key_label k) then
+      negb (is_root (key_to k)) &&
+      match parent_of X (key_to k) with Some _ => false | None => true end &&
+      in_tree X (key_from k) &&
+      negb (eqb (top eq_dec from to (accepted X) (key_from k)) (key_to k))
+    else implb (functional D (key_label k)) (negb (is_taken X (key_from k) (key_label k))).
+
+  (** [MUT-4.2] *)
+  Definition strands_nothing (X Y : State) : bool :=
+    forallb (fun v => implb (is_stranded D Y v) (is_stranded D X v)) (vertices Y).
+
+  Definition accepts (X : State) (a : Author) (m : Mutation) : bool :=
+    match m with
+    | AddVertex _ name _ attributes other l outgoing link_attributes =>
+        (* MUT-1.2, MUT-1.3, MUT-1.4 *)
+        negb (reserved name) && match by_name X name with Some _ => false | None => true end &&
+        attributes_ok attributes && attributes_ok link_attributes &&
+        (* MUT-1.1 *)
+        in_graph X other &&
+        if is_RT l then negb outgoing && in_tree X other
+        else implb (negb outgoing && functional D l) (negb (is_taken X other l))
+    | AddEdge k attributes => edge_possible X k && attributes_ok attributes (* MUT-2.7 *)
+    | UpdateAttributes target updates =>
+        (* MUT-3.1, MUT-3.2, MUT-3.3, MUT-3.4 *)
+        (in_graph X target || existsb (fun c => eqb (fst c) target) (shown D X)) &&
+        negb (eqb (keys updates) []) &&
+        forallb (fun e => match snd e with
+          | Some v => allows (fst e) (value_type v)
+          | None => match attribute allows X target (fst e) with Some _ => true | None => false end
+          end) (entries updates)
+    | RemoveEdge k => is_shown X k && strands_nothing X (mutate D a m X) (* MUT-4.1, MUT-4.2 *)
+    | MoveEdge old new attributes =>
+        (* MUT-5.1, MUT-5.2, MUT-5.5, MUT-5.3, MUT-5.4 *)
+        is_shown X old && negb (has_key old (ROOT, Edge (key_from new) (key_to new) (key_label new) 0)) &&
+        attributes_ok attributes &&
+        edge_possible (mutate D a (RemoveEdge old) X) new &&
+        strands_nothing X (mutate D a m X)
+    | RemoveVertex v =>
+        (* MUT-6.1, MUT-6.2, MUT-6.3 *)
+        in_graph X v && negb (is_root v) && strands_nothing X (mutate D a m X)
+    end.
+
+  (** [MUT-2.5] "The child is not among the parent's ancestors": a child without a parent is an ancestor of
+      the parent exactly if it is the parent's top. *)
+  Theorem cycle_condition X p c : parent_of X c = None ->
+    top eq_dec from to (accepted X) p = c <-> up from to (accepted X) p c.
+  Proof.
+    intros N. rewrite parent_of_none in N. pose proof (kinematic_forest X) as F. split.
+    - intros <-. now apply up_to_top.
+    - intros U. apply up_connected in U. apply (same_top_iff_connected F) in U. rewrite U.
+      now apply top_of_top.
+  Qed.
+
+  (** ** What a lone replica keeps *)
+
+  (** Nothing is pending: whatever a record is anchored to is held, or ROOT, and of the right kind. *)
+  Definition settled (X : State) : Prop := forall d x b, get X d = Some x -> In b (anchors x) ->
+    b = ROOT \/ exists y, get X b = Some y /\ may_anchor x y = true.
+
+  Record clean (X : State) : Prop := {
+    clean_wf : wf X;
+    clean_settled : settled X;
+    clean_ends : right_ends X;
+    clean_unbroken : unbroken D allows X
+  }.
+
+  Lemma wf_root X : wf X -> get X ROOT = None.
+  Proof.
+    intros (E & S & _). pose proof (root_lives X E S) as U. unfold cond in U. destruct (get X ROOT); auto. easy.
+  Qed.
+
+  Theorem clean_reports_nothing X : clean X -> repairs D allows X = [].
+  Proof. intros C. apply unbroken_reports_nothing; apply C. Qed.
+
+  Lemma clean_bottom : clean bottom.
+  Proof.
+    assert (V : forall v, In v (vertices bottom) -> v = ROOT) by (intros v [<- | []]; auto).
+    split; [apply wf_bottom | easy | easy |]. split; try easy.
+    intros v I. apply V in I as ->. apply rst_refl.
+  Qed.
+
+  Lemma in_graph_possible X d : in_graph X d = Mutations.is_vertex X d.
+  Proof. reflexivity. Qed.
+
+  Lemma edge_possible_ends X k : edge_possible X k = true ->
+    in_graph X (key_from k) = true /\ in_graph X (key_to k) = true /\ key_from k <> key_to k /\
+    (is_RT (key_label k) = true -> key_to k <> ROOT).
+  Proof.
+    unfold edge_possible. rewrite !andb_true_iff, negb_true_iff, eqb_neq. intros ((((F & T) & N) & _) & R).
+    repeat split; auto. intros Rt. rewrite Rt, !andb_true_iff, negb_true_iff in R.
+    destruct R as (((R & _) & _) & _). now apply eqb_neq in R.
+  Qed.
+
+  (** A mutation has no effect on the kinds of dots that it does not make. *)
+  Lemma in_graph_old X a m d : wf X -> possible X m = true -> (forall x, ~ In (d, x) (made (plan D X a m))) ->
+    in_graph (mutate D a m X) d = true -> in_graph X d = true.
+  Proof.
+    intros W Q N. unfold in_graph. destruct (is_root d); auto. simpl.
+    destruct (get (mutate D a m X) d) as [x |] eqn:G; [| easy].
+    apply mutate_held in G as [I | [G _]]; auto; [now apply N in I | now rewrite G].
+  Qed.
+
+  Theorem accepts_possible X a m : wf X -> accepts X a m = true -> possible X m = true.
+  Proof.
+    intros W. destruct m; cbn [accepts possible]; rewrite ?andb_true_iff.
+    - intros ((_ & G) & _). exact G.
+    - intros (E & _). apply edge_possible_ends in E as (F & T & _). now split.
+    - intros ((T & _) & _). unfold Mutations.is_element. apply orb_true_iff. apply orb_prop in T as [T | T]; auto.
+      right. apply existsb_exists in T as (c & I & E). apply eqb_eq in E as <-.
+      apply shown_visible, visible_in in I as (G & (s & E) & _ & F & T). rewrite G, E. now apply andb_true_intro.
+    - auto.
+    - intros ((_ & E) & _). apply edge_possible_ends in E as (F & T & _).
+      split; (eapply in_graph_old; [exact W | | | eassumption]; [reflexivity | easy]).
+    - intros ((G & N) & _). auto.
+  Qed.
+
+  (** ** What is made *)
+
+  Definition new_vertex (X : State) (a : Author) (m : Mutation) : option (Dot * Name) :=
+    match m with AddVertex _ name _ _ _ _ _ _ => Some (next_dot X (me a), name) | _ => None end.
+  Definition new_key (X : State) (a : Author) (m : Mutation) : option Key :=
+    match m with
+    | AddVertex _ _ _ _ other l outgoing _ => Some (
+        if outgoing then {| key_from := next_dot X (me a); key_to := other; key_label := l |}
+        else {| key_from := other; key_to := next_dot X (me a); key_label := l |})
+    | AddEdge k _ | MoveEdge _ k _ => Some k
+    | _ => None
+    end.
+  Definition new_edge_dot (X : State) (a : Author) (m : Mutation) : Dot :=
+    dot_of (me a) (1 + greatest X (me a) + match m with AddVertex _ _ _ _ _ _ _ _ => 1 | _ => 0 end).
+
+  Lemma set_declared X a t l d x : attributes_ok l = true -> In x (set X a t l) ->
+    key_of x = None /\ declared allows (d, x) = true.
+  Proof.
+    unfold attributes_ok, set. rewrite forallb_forall, in_map_iff. intros A ([n v] & <- & I).
+    split; auto. now apply A in I.
+  Qed.
+
+  Lemma made_spec X a m d x : accepts X a m = true -> In (d, x) (made (plan D X a m)) ->
+    match x with
+    | Vertex _ n _ _ => new_vertex X a m = Some (d, n)
+    | Edge f t l _ => new_key X a m = Some {| key_from := f; key_to := t; key_label := l |} /\ d = new_edge_dot X a m
+    | Write _ _ _ _ _ => declared allows (d, x) = true
+    end.
+  Proof.
+    assert (S : forall t l, attributes_ok l = true -> In x (set X a t l) ->
+      match x with Write _ _ _ _ _ => declared allows (d, x) = true | _ => False end).
+    { intros t l A I. pose proof I as J. apply set_in in J as (n & v & ->).
+      now apply (set_declared X a t l d) in I. }
+    intros A I. destruct m; cbn [plan made make_records accepts] in A, I; rewrite ?andb_true_iff in A.
+    - destruct A as ((((_ & A1) & A2) & _) & _).
+      destruct I as [[= <- <-] | [[= <- <-] | I]].
+      + unfold next_dot. simpl. auto.
+      + unfold new_edge_dot. simpl. destruct outgoing; split; auto; simpl; rewrite N.add_0_r; reflexivity.
+      + apply numbered_in in I as [[I | I]%in_app_iff _]; apply S in I; auto; now destruct x.
+    - destruct A as (_ & A). destruct I as [[= <- <-] | I].
+      + unfold new_edge_dot. simpl. rewrite N.add_0_r. split; auto. now destruct key.
+      + apply numbered_in in I as [I _]. apply S in I; auto. now destruct x.
+    - destruct A as (_ & A). apply numbered_in in I as [I _]. apply updated_in in I as (n & v & I & ->).
+      rewrite forallb_forall in A. now apply A in I.
+    - easy.
+    - destruct A as ((((_ & _) & A) & _) & _). destruct I as [[= <- <-] | I].
+      + unfold new_edge_dot. simpl. rewrite N.add_0_r. split; auto. now destruct new.
+      + apply numbered_in in I as [I _]. apply S in I; auto. now destruct x.
+    - easy.
+  Qed.
+
+  (** Whatever makes an edge kills all that is held on its register, [MUT-2.6]. *)
+  Lemma register_killed X a m k d x : new_key X a m = Some k -> get X d = Some x -> competes D k x = true ->
+    In d (killed (plan D X a m)).
+  Proof.
+    intros K G C. assert (I : In d (register D X k)) by (apply register_in; eauto).
+    destruct m; cbn [new_key plan killed make_records] in *; try easy; injection K as <-; auto.
+    apply in_app_iff. now right.
+  Qed.
+
+  Lemma killed_no_vertex X a m d t n e s : (forall v, m <> RemoveVertex v) ->
+    In d (killed (plan D X a m)) -> get X d <> Some (Vertex t n e s).
+  Proof.
+    assert (R : forall k, In d (register D X k) -> get X d <> Some (Vertex t n e s)).
+    { intros k (x & G & C)%register_in. rewrite G. intros [= ->]. discriminate. }
+    intros N I. destruct m; cbn [plan killed make_records] in I; eauto.
+    - apply writes_in in I as (x & G & n' & v & c & s' & ->). now rewrite G.
+    - apply in_app_iff in I as [I | I]; eauto.
+    - now destruct (N vertex).
+  Qed.
+
+  Section Step.
+    Context (X : State) (a : Author) (m : Mutation).
+    Context (C : clean X) (A : accepts X a m = true).
+    Let Y := mutate D a m X.
+    Let W : wf X := clean_wf X C.
+    Let Q : possible X m = true := accepts_possible X a m W A.
+    Let U : unbroken D allows X := clean_unbroken X C.
+    Let P : sound X (plan D X a m) := plan_sound D X a m W Q.
+
+    Lemma wf_Y : wf Y.
+    Proof. now apply wf_mutate. Qed.
+
+    Lemma held_Y d x : get Y d = Some x ->
+      In (d, x) (made (plan D X a m)) \/ get X d = Some x /\ ~ In d (killed (plan D X a m)).
+    Proof. now apply mutate_held. Qed.
+
+    Lemma stays d x : get X d = Some x -> is_dead Y d = false -> get Y d = Some x.
+    Proof.
+      intros G N. assert (L : X ≤ Y) by now apply edit_inflationary. specialize (L d).
+      apply cond_held in G. rewrite G in L. destruct (cond Y d) eqn:E; inversion L; subst.
+      - now apply cond_held.
+      - apply cond_dead in E. congruence.
+    Qed.
+
+    Lemma settled_Y : settled Y.
+    Proof.
+      intros d x b G I.
+      assert (S : forall y, get X b = Some y -> get Y b = Some y).
+      { intros y H. apply stays; auto. now apply (proj2 (proj2 wf_Y) d x). }
+      apply held_Y in G as [G | [G _]].
+      - destruct (made_anchored _ _ P _ _ _ G I) as [-> | (y & M & [H | H])]; auto; right; exists y; split; auto.
+        now apply made_lives.
+      - destruct (clean_settled X C _ _ _ G I) as [-> | (y & H & M)]; auto. right. exists y. auto.
+    Qed.
+
+    (** In a clean state every edge held is visible, and shown. *)
+    Lemma edge_visible d f t l s : get X d = Some (Edge f t l s) -> In (d, Edge f t l s) (visible X).
+    Proof.
+      intros G. apply visible_in. simpl. unfold from, to, label. simpl. repeat split; eauto.
+      - now destruct (clean_ends X C _ _ G).
+      - assert (H : In f (anchors (Edge f t l s))) by now left.
+        unfold in_graph. destruct (clean_settled X C _ _ _ G H) as [-> | (y & E & M)]; [easy |].
+        rewrite E. destruct y; try easy. now rewrite orb_true_r.
+      - assert (H : In t (anchors (Edge f t l s))) by (right; now left).
+        unfold in_graph. destruct (clean_settled X C _ _ _ G H) as [-> | (y & E & M)]; [easy |].
+        rewrite E. destruct y; try easy. now rewrite orb_true_r.
+    Qed.
+
+    (** A visible edge afterwards is the new one, or was visible before and does not compete with it. *)
+    Lemma visible_Y c : In c (visible Y) ->
+      fst c = new_edge_dot X a m /\ new_key X a m = Some (key c) \/
+      In c (visible X) /\ ~ In (fst c) (killed (plan D X a m)) /\
+      forall k, new_key X a m = Some k -> competes D k (snd c) = false.
+    Proof.
+      intros I. apply visible_in in I as (G & (s & E) & _). rewrite E in G.
+      apply held_Y in G as [G | [G K]].
+      - left. now apply made_spec in G as [G ->].
+      - right. repeat split; auto.
+        + destruct c as [d x]. simpl in *. rewrite E. now apply edge_visible.
+        + intros k N. apply not_true_iff_false. intros F. apply K. eapply register_killed; eauto.
+          now rewrite E in F.
+    Qed.
+
+    Lemma visible_key Z c : In c (visible Z) -> key_of (snd c) = Some (key c).
+    Proof. intros I. apply visible_in in I as (_ & (s & E) & _). now rewrite E. Qed.
+
+    (** [INV-6] One edge for each register. *)
+    Lemma registers_Y c c' : In c (symbolic Y) -> In c' (symbolic Y) ->
+      competes D (key c) (snd c') = true -> c = c'.
+    Proof.
+      intros [I R]%symbolic_in [I' R']%symbolic_in F.
+      pose proof (visible_key _ _ I) as K. pose proof (visible_key _ _ I') as K'.
+      destruct (visible_Y c I) as [[E N] | (J & _ & N)], (visible_Y c' I') as [[E' N'] | (J' & _ & N')].
+      - apply (same_dot Y); auto using visible_records. congruence.
+      - rewrite N' in F; auto. discriminate.
+      - rewrite (competes_sym D _ _ _ _ K K') in F. rewrite N in F; auto. discriminate.
+      - apply (one_edge_each_register _ _ _ U); auto; now apply symbolic_in.
+    Qed.
+
+    Lemma same_child Z c c' : In c (kinematic Z) -> In c' (kinematic Z) -> to c = to c' ->
+      competes D (key c) (snd c') = true.
+    Proof.
+      intros (I & R & _)%kinematic_in (I' & R' & _)%kinematic_in E.
+      apply visible_in in I' as (_ & (s & E') & _). rewrite E'. simpl. rewrite R'.
+      apply eqb_eq in R, R'. rewrite R, R', E. now rewrite !eqb_refl.
+    Qed.
+
+    (** [INV-3] One kinematic parent. *)
+    Lemma parents_Y c c' : In c (kinematic Y) -> In c' (kinematic Y) -> to c = to c' -> c = c'.
+    Proof.
+      intros I I' E. pose proof (same_child _ _ _ I I' E) as F. pose proof (same_child _ _ _ I' I (eq_sym E)) as F'.
+      pose proof I as (V & R & T)%kinematic_in. pose proof I' as (V' & R' & T')%kinematic_in.
+      destruct (visible_Y c V) as [[H N] | (J & _ & N)], (visible_Y c' V') as [[H' N'] | (J' & _ & N')].
+      - apply (same_dot Y); auto using visible_records. congruence.
+      - rewrite N' in F; auto. discriminate.
+      - rewrite N in F'; auto. discriminate.
+      - apply (one_kinematic_parent _ _ _ U); auto; now apply kinematic_in.
+    Qed.
+
+    (** No vertex appears but the one that is added. *)
+    Lemma vertices_Y v : In v (vertices Y) -> In v (vertices X) \/ exists n, new_vertex X a m = Some (v, n).
+    Proof.
+      rewrite !vertices_in. intros G. destruct (in_graph X v) eqn:E; [now left | right].
+      unfold in_graph in *. apply orb_false_elim in E as [E F]. rewrite E in G. simpl in G.
+      destruct (get Y v) as [[t n e s | |] |] eqn:H; try easy. apply held_Y in H as [H | [H _]].
+      - apply made_spec in H; eauto.
+      - rewrite H in F. discriminate.
+    Qed.
+
+    Lemma name_Y v n : name_of Y v = Some n -> name_of X v = Some n \/ new_vertex X a m = Some (v, n).
+    Proof.
+      unfold name_of. destruct (get Y v) as [[t n' e s | |] |] eqn:H; try easy. intros [= <-].
+      apply held_Y in H as [H | [H _]]; [right | left; now rewrite H]. now apply made_spec in H.
+    Qed.
+
+    Lemma named_in_graph Z v n : name_of Z v = Some n -> In v (vertices Z).
+    Proof.
+      unfold name_of. rewrite vertices_in. unfold in_graph. destruct (get Z v) as [[] |]; try easy.
+      now rewrite orb_true_r.
+    Qed.
+
+    (** [VIEW-7] One vertex for each name, by MUT-1.2 and MUT-1.3. *)
+    Lemma names_Y v w n : In v (vertices Y) -> In w (vertices Y) ->
+      name_of Y v = Some n -> name_of Y w = Some n -> v = w /\ reserved n = false.
+    Proof.
+      assert (F : forall v, new_vertex X a m = Some (v, n) ->
+                  reserved n = false /\ forall u, name_of X u <> Some n).
+      { intros u E. pose proof A as B'. destruct m; try easy. injection E as _ <-. cbn [accepts] in B'.
+        rewrite !andb_true_iff, negb_true_iff in B'. destruct B' as (((((R & B) & _) & _) & _) & _).
+        split; auto. intros w' E. pose proof (name_finds_oldest X name R) as F.
+        destruct (by_name X name); [easy |]. apply (F w'); auto. eapply named_in_graph; eauto. }
+      intros _ _ [Ev | Ev]%name_Y [Ew | Ew]%name_Y.
+      - apply (one_vertex_each_name _ _ _ U); eauto using named_in_graph.
+      - destruct (F _ Ew) as [_ N]. now apply N in Ev.
+      - destruct (F _ Ev) as [_ N]. now apply N in Ew.
+      - destruct (F _ Ev) as [R _]. split; [congruence | auto].
+    Qed.
+
+    (** [INV-5] Every write is declared, by MUT-3.2. *)
+    Lemma declared_Y c : In c (live_writes Y) -> declared allows c = true.
+    Proof.
+      intros [I L]%filter_In. apply in_records in I. unfold is_live_write in L. destruct c as [d x].
+      simpl in *. destruct x as [| | t n v z s]; try easy. apply held_Y in I as [I | [G _]].
+      - now apply made_spec in I.
+      - apply (all_declared _ _ _ U). apply filter_In. split; [now apply in_records |]. simpl.
+        assert (H : In t (anchors (Write t n v z s))) by now left.
+        unfold is_live_write, is_element, in_graph. simpl.
+        destruct (clean_settled X C _ _ _ G H) as [-> | (y & E & M)]; [easy |]. rewrite E.
+        destruct y; try easy; [now rewrite orb_true_r |].
+        apply edge_visible, filter_In in E as [_ E]. now rewrite E, orb_true_r.
+    Qed.
+
+    (** [WF-4] *)
+    Lemma ends_Y : right_ends Y.
+    Proof.
+      intros d x G. destruct x as [| f t l s |]; try easy. simpl. apply held_Y in G as [G | [G _]].
+      - apply made_spec in G as [G _]; auto. pose proof A as A'.
+        assert (H : forall Z k, edge_possible Z k = true -> Some k = Some {| key_from := f; key_to := t; key_label := l |} ->
+          f <> t /\ (l = RT -> t <> ROOT)).
+        { intros Z k E [= ->]. apply edge_possible_ends in E as (_ & _ & N & R). split; auto. intros ->. now apply R. }
+        destruct m; cbn [new_key] in G; try easy; cbn [accepts] in A'.
+        + rewrite !andb_true_iff in A'. destruct A' as (((((_ & _) & _) & _) & O) & R).
+          assert (S : in_graph X (next_dot X (me a)) = false /\ next_dot X (me a) <> ROOT).
+          { assert (N : next_dot X (me a) <> ROOT).
+            { intros N. apply (f_equal sequence) in N. unfold next_dot, dot_of, ROOT, r in N.
+              cbn [sequence] in N. lia. }
+            split; auto. unfold in_graph. apply orb_false_intro; [now apply eqb_neq |].
+            destruct (get X (next_dot X (me a))) eqn:E; auto. exfalso.
+            assert (S : seen X (next_dot X (me a)) = false) by (apply next_dots_unseen; lia).
+            assert (B : holds X (next_dot X (me a)) = true) by (unfold holds; now rewrite E).
+            apply W in B. congruence. }
+          destruct S as [S N]. destruct outgoing; injection G as <- <- <-.
+          * split; [intros <-; congruence |]. intros ->. simpl in R. discriminate.
+          * split; [intros ->; congruence | auto].
+        + apply andb_prop in A' as [A' _]. eapply H; eauto.
+        + rewrite !andb_true_iff in A'. destruct A' as ((_ & E) & _).
+          eapply H; eauto.
+      - now apply (clean_ends X C) in G.
+    Qed.
+  End Step.
+End Sequential.
