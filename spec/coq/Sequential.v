@@ -214,6 +214,62 @@ Section Sequential.
     - now destruct (N vertex).
   Qed.
 
+  (** Where nothing is pending every edge held is visible. *)
+  Lemma edge_visible X d f t l s : settled X -> right_ends X ->
+    get X d = Some (Edge f t l s) -> In (d, Edge f t l s) (visible X).
+  Proof.
+    intros S E G. assert (V : forall b, In b [f; t] -> in_graph X b = true).
+    { intros b I. unfold in_graph. destruct (S _ _ b G I) as [-> | (y & H & M)]; [easy |].
+      rewrite H. destruct y; try easy. now rewrite orb_true_r. }
+    apply visible_in. unfold from, to, label. simpl. repeat split; eauto; try apply V; simpl; auto.
+    now destruct (E _ _ G).
+  Qed.
+
+  (** Nothing made is under a dot that is in the graph already. *)
+  Lemma next_dot_new X a : wf X -> in_graph X (next_dot X (me a)) = false.
+  Proof.
+    intros W. unfold in_graph. apply orb_false_intro.
+    - apply eqb_neq. intros N. apply (f_equal sequence) in N. unfold next_dot, dot_of, ROOT, r in N.
+      cbn [sequence] in N. lia.
+    - destruct (get X (next_dot X (me a))) eqn:E; auto. exfalso.
+      assert (S : seen X (next_dot X (me a)) = false) by (apply next_dots_unseen; lia).
+      assert (B : holds X (next_dot X (me a)) = true) by (unfold holds; now rewrite E).
+      apply W in B. congruence.
+  Qed.
+
+  (** A vertex or an edge outlives a mutation that kills neither it nor a vertex. *)
+  Lemma survives X a m d x : wf X -> settled X -> possible X m = true -> (forall v, m <> RemoveVertex v) ->
+    get X d = Some x -> match x with Write _ _ _ _ _ => False | _ => True end ->
+    ~ In d (killed (plan D X a m)) -> get (mutate D a m X) d = Some x.
+  Proof.
+    intros W S Q N G K NK. pose proof (plan_sound D X a m W Q) as P.
+    set (M := merge X (delta_of (plan D X a m))).
+    assert (H : forall b y, get X b = Some y -> ~ In b (killed (plan D X a m)) -> cond M b = Held y)
+      by (intros b y; apply cond_merge_kept; auto).
+    assert (A : forall b, In b (anchors x) -> is_dead M b = false /\ ~ doomed M b).
+    { intros b I. destruct (S _ _ _ G I) as [-> | (y & E & V)].
+      - pose proof (root_unseen X _ W P : cond M ROOT = Unseen) as R. split.
+        + apply not_true_iff_false. rewrite <- cond_dead. now rewrite R.
+        + inversion 1 as [? ? ? F | ? ? ? F]; apply cond_held in F; now rewrite R in F.
+      - destruct x; try easy. destruct y as [t' n' e' s' | |]; try easy.
+        assert (R : cond M b = Held (Vertex t' n' e' s')).
+        { apply H; auto. intros I'. now apply (killed_no_vertex X a m b t' n' e' s') in I'. }
+        split.
+        + apply not_true_iff_false. rewrite <- cond_dead. now rewrite R.
+        + inversion 1 as [? ? ? F J | ? ? ? F J]; apply cond_held in F; rewrite R in F; injection F as <-; easy. }
+    pose proof (H _ _ G NK) as B. unfold mutate. rewrite <- join_delta_of by auto. unfold join. fold M.
+    pose proof (close_inflationary M d) as L. rewrite B in L. apply cond_held.
+    destruct (cond (close M) d) eqn:F; inversion L; subst; auto.
+    apply cond_dead, close_drops in F as [F | F].
+    - apply cond_dead in F. congruence.
+    - inversion F as [? x' b F' J Dd | ? x' b F' J Dd]; apply cond_held in F'; rewrite B in F';
+        injection F' as <-; apply A in J as [J1 J2]; congruence || auto.
+  Qed.
+
+  (** Mutations 1 to 3. *)
+  Definition adds (m : Mutation) : Prop :=
+    match m with AddVertex _ _ _ _ _ _ _ _ | AddEdge _ _ | UpdateAttributes _ _ => True | _ => False end.
+
   Section Step.
     Context (X : State) (a : Author) (m : Mutation).
     Context (C : clean X) (A : accepts X a m = true).
@@ -249,19 +305,6 @@ Section Sequential.
       - destruct (clean_settled X C _ _ _ G I) as [-> | (y & H & M)]; auto. right. exists y. auto.
     Qed.
 
-    (** In a clean state every edge held is visible, and shown. *)
-    Lemma edge_visible d f t l s : get X d = Some (Edge f t l s) -> In (d, Edge f t l s) (visible X).
-    Proof.
-      intros G. apply visible_in. simpl. unfold from, to, label. simpl. repeat split; eauto.
-      - now destruct (clean_ends X C _ _ G).
-      - assert (H : In f (anchors (Edge f t l s))) by now left.
-        unfold in_graph. destruct (clean_settled X C _ _ _ G H) as [-> | (y & E & M)]; [easy |].
-        rewrite E. destruct y; try easy. now rewrite orb_true_r.
-      - assert (H : In t (anchors (Edge f t l s))) by (right; now left).
-        unfold in_graph. destruct (clean_settled X C _ _ _ G H) as [-> | (y & E & M)]; [easy |].
-        rewrite E. destruct y; try easy. now rewrite orb_true_r.
-    Qed.
-
     (** A visible edge afterwards is the new one, or was visible before and does not compete with it. *)
     Lemma visible_Y c : In c (visible Y) ->
       fst c = new_edge_dot X a m /\ new_key X a m = Some (key c) \/
@@ -272,7 +315,7 @@ Section Sequential.
       apply held_Y in G as [G | [G K]].
       - left. now apply made_spec in G as [G ->].
       - right. repeat split; auto.
-        + destruct c as [d x]. simpl in *. rewrite E. now apply edge_visible.
+        + destruct c as [d x]. simpl in *. rewrite E. apply edge_visible; auto; apply C.
         + intros k N. apply not_true_iff_false. intros F. apply K. eapply register_killed; eauto.
           now rewrite E in F.
     Qed.
@@ -363,7 +406,7 @@ Section Sequential.
         unfold is_live_write, is_element, in_graph. simpl.
         destruct (clean_settled X C _ _ _ G H) as [-> | (y & E & M)]; [easy |]. rewrite E.
         destruct y; try easy; [now rewrite orb_true_r |].
-        apply edge_visible, filter_In in E as [_ E]. now rewrite E, orb_true_r.
+        apply edge_visible, filter_In in E as [_ E]; try apply C. now rewrite E, orb_true_r.
     Qed.
 
     (** [WF-4] *)
@@ -376,16 +419,9 @@ Section Sequential.
         { intros Z k E [= ->]. apply edge_possible_ends in E as (_ & _ & N & R). split; auto. intros ->. now apply R. }
         destruct m; cbn [new_key] in G; try easy; cbn [accepts] in A'.
         + rewrite !andb_true_iff in A'. destruct A' as (((((_ & _) & _) & _) & O) & R).
-          assert (S : in_graph X (next_dot X (me a)) = false /\ next_dot X (me a) <> ROOT).
-          { assert (N : next_dot X (me a) <> ROOT).
-            { intros N. apply (f_equal sequence) in N. unfold next_dot, dot_of, ROOT, r in N.
-              cbn [sequence] in N. lia. }
-            split; auto. unfold in_graph. apply orb_false_intro; [now apply eqb_neq |].
-            destruct (get X (next_dot X (me a))) eqn:E; auto. exfalso.
-            assert (S : seen X (next_dot X (me a)) = false) by (apply next_dots_unseen; lia).
-            assert (B : holds X (next_dot X (me a)) = true) by (unfold holds; now rewrite E).
-            apply W in B. congruence. }
-          destruct S as [S N]. destruct outgoing; injection G as <- <- <-.
+          pose proof (next_dot_new X a W) as S.
+          assert (N : next_dot X (me a) <> ROOT) by (intros N; now rewrite N in S).
+          destruct outgoing; injection G as <- <- <-.
           * split; [intros <-; congruence |]. intros ->. simpl in R. discriminate.
           * split; [intros ->; congruence | auto].
         + apply andb_prop in A' as [A' _]. eapply H; eauto.
@@ -393,5 +429,133 @@ Section Sequential.
           eapply H; eauto.
       - now apply (clean_ends X C) in G.
     Qed.
+
+    Lemma vertex_survives v : (forall u, m <> RemoveVertex u) -> In v (vertices X) -> In v (vertices Y).
+    Proof.
+      rewrite !vertices_in. unfold in_graph. intros N. destruct (is_root v); auto. simpl.
+      destruct (get X v) as [[t n e s | |] |] eqn:G; try easy. intros _.
+      assert (H : get Y v = Some (Vertex t n e s)).
+      { apply survives; auto; [apply C |]. intros I. now apply (killed_no_vertex X a m v t n e s) in I. }
+      now rewrite H.
+    Qed.
+
+    Lemma edge_survives c : (forall u, m <> RemoveVertex u) -> In c (visible X) ->
+      ~ In (fst c) (killed (plan D X a m)) -> In c (visible Y).
+    Proof.
+      intros N I K. apply visible_in in I as (G & (s & E) & NE & F & T).
+      rewrite <- vertices_in in F, T. apply vertex_survives, vertices_in in F, T; auto.
+      apply visible_in. repeat split; eauto. apply survives; auto; [apply C |]. now rewrite E.
+    Qed.
+
+    (** *** Mutations 1 to 3 kill no edge of a clean state, and so keep every path *)
+
+    Lemma free_register Z k c : edge_possible Z k = true -> In c (shown D Z) -> competes D k (snd c) = false.
+    Proof.
+      unfold edge_possible. rewrite !andb_true_iff. intros ((_ & NS) & R) I. apply not_true_iff_false. intros F.
+      pose proof I as V. apply shown_visible, visible_in in V as (_ & (s & E) & _). rewrite E in F. simpl in F.
+      apply andb_prop in F as [L F]. apply eqb_eq in L. rewrite <- L in *. destruct (is_RT (label c)) eqn:Rt.
+      - rewrite !andb_true_iff in R. destruct R as (((_ & R) & _) & _). apply eqb_eq in F.
+        destruct (parent_of Z (key_to k)) eqn:Pk; [easy |]. rewrite parent_of_none in Pk.
+        apply (Pk c); auto. now apply (shown_RT D Z).
+      - apply andb_prop in F as [F T]. apply orb_prop in T as [T | T].
+        + apply negb_true_iff, not_true_iff_false in NS. apply NS, existsb_exists. exists c. split; auto.
+          unfold has_key. rewrite F, T. now apply eqb_eq.
+        + rewrite T in R. simpl in R. apply negb_true_iff, not_true_iff_false in R. apply R, existsb_exists.
+          exists c. split; auto. rewrite F. now apply eqb_eq.
+    Qed.
+
+    Lemma no_edge_killed c : adds m -> In c (visible X) -> ~ In (fst c) (killed (plan D X a m)).
+    Proof.
+      intros Gr V K. pose proof (unbroken_shows_all D allows X c (clean_ends X C) U V) as S.
+      assert (R : forall k, In (fst c) (register D X k) -> competes D k (snd c) = true).
+      { intros k (x & G & F)%register_in. apply visible_in in V as (G' & _). congruence. }
+      pose proof A as A'. pose proof V as V'. apply visible_in in V' as (G & (s & E) & _ & F & T).
+      destruct m as [ty nm ext ats other lb outgoing lats | k0 ats | tg up | k0 | old0 new0 ats | vx]; try easy; cbn [plan killed make_records accepts] in K, A'.
+      - apply R in K. rewrite !andb_true_iff in A'. destruct A' as (_ & A').
+        pose proof (next_dot_new X a W) as N. fold (next_dot X (me a)) in K.
+        rewrite E in K. destruct outgoing; simpl in K; apply andb_prop in K as [L K]; apply eqb_eq in L;
+          rewrite <- L in *; destruct (is_RT (label c)) eqn:Rt.
+        + discriminate.
+        + apply andb_prop in K as [K _]. apply eqb_eq in K. congruence.
+        + apply eqb_eq in K. congruence.
+        + apply andb_prop in K as [K1 K2]. apply orb_prop in K2 as [K2 | K2].
+          * apply eqb_eq in K2. congruence.
+          * rewrite K2 in A'. simpl in A'. apply negb_true_iff, not_true_iff_false in A'.
+            apply A', existsb_exists. exists c. split; auto. rewrite K1. now apply eqb_eq.
+      - apply R in K. apply andb_prop in A' as [A' _]. rewrite (free_register X k0 c) in K; auto. discriminate.
+      - apply writes_in in K as (x & G' & n & v & z & s' & ->). congruence.
+    Qed.
+
+    Lemma grows_not_removal : adds m -> forall u, m <> RemoveVertex u.
+    Proof. intros G u E. now rewrite E in G. Qed.
+
+    Lemma grown_edges c : adds m -> In c (visible X) -> In c (visible Y).
+    Proof. intros G I. apply edge_survives; auto using grows_not_removal, no_edge_killed. Qed.
+
+    Lemma grown_kinematic c : adds m -> In c (kinematic X) -> In c (kinematic Y).
+    Proof. rewrite !kinematic_in. intros G [I R]. auto using grown_edges. Qed.
+
+    Lemma joined_incl (l l' : list Claim) u v : incl l l' -> joined (map ends l) u v -> joined (map ends l') u v.
+    Proof.
+      intros I J. induction J as [u w H | | |]; [| apply rst_refl | now apply rst_sym | eapply rst_trans; eauto].
+      apply rst_step. apply in_map_iff in H as (c & <- & H). now apply in_map, I.
+    Qed.
+
+    Lemma no_report : repairs D allows X = [].
+    Proof. now apply clean_reports_nothing. Qed.
+
+    Lemma tree_reaches_root v : in_tree X v = true -> up from to (kinematic X) v ROOT.
+    Proof.
+      intros T. destruct (way_up_ends D allows X v T) as (t & Wt & [-> | H]).
+      - eapply up_incl; [| exact Wt]. intros c. apply accepted_kinematic.
+      - now rewrite no_report in H.
+    Qed.
+
+    Lemma grown_tree c : adds m -> In c (kinematic Y) -> up from to (kinematic Y) (from c) ROOT.
+    Proof.
+      intros G I. enough (H : up from to (kinematic X) (from c) ROOT).
+      { eapply up_incl; [| exact H]. intros c'. now apply grown_kinematic. }
+      apply kinematic_in in I as (I & R & T). destruct (visible_Y c I) as [[E N] | (J & _)].
+      - apply tree_reaches_root. pose proof A as A'. destruct m as [ty nm ext ats other lb outgoing lats | k0 ats | tg up | k0 | old0 new0 ats | vx]; try easy; cbn [new_key accepts] in N, A'.
+        + rewrite !andb_true_iff in A'. destruct A' as (_ & A'). destruct outgoing; injection N as Nf Nt Nl.
+          * rewrite Nl, R in A'. discriminate.
+          * rewrite Nl, R in A'. now rewrite <- Nf.
+        + injection N as ->. apply andb_prop in A' as [A' _]. unfold edge_possible in A'. simpl in A'.
+          rewrite R, !andb_true_iff in A'. tauto.
+      - apply (one_kinematic_tree _ _ _ U). now apply kinematic_in.
+    Qed.
+
+    Lemma grown_paths v : adds m -> In v (vertices Y) -> joined (map ends (visible Y)) v ROOT.
+    Proof.
+      intros G I. assert (old : forall u, In u (vertices X) -> joined (map ends (visible Y)) u ROOT).
+      { intros u J. apply joined_incl with (l := visible X); [intros c; now apply grown_edges |].
+        now apply (all_paths _ _ _ U). }
+      destruct (vertices_Y v I) as [J | (n & N)]; auto.
+      assert (S : exists k x, new_key X a m = Some k /\
+        In (new_edge_dot X a m, Edge (key_from k) (key_to k) (key_label k) x) (made (plan D X a m))).
+      { destruct m as [ty nm ext ats other lb outgoing lats | k0 ats | tg up | k0 | old0 new0 ats | vx]; try easy. unfold new_edge_dot. cbn [new_key plan made make_records numbered].
+        do 2 eexists. split; [reflexivity |]. right. left. unfold edge_record, next_dot.
+        destruct outgoing; reflexivity. }
+      destruct S as (k & x & K & S). apply (made_lives X _ W P) in S.
+      apply edge_visible, (in_map ends) in S; [| apply settled_Y | apply ends_Y].
+      unfold ends at 1, from, to in S. simpl in S. pose proof A as A'.
+      destruct m as [ty nm ext ats other lb outgoing lats | k0 ats | tg up | k0 | old0 new0 ats | vx]; try easy. cbn [new_vertex new_key accepts] in *. injection N as <- _.
+      rewrite !andb_true_iff in A'. destruct A' as ((_ & O) & _). apply vertices_in, old in O.
+      destruct outgoing; injection K as <-; simpl in S.
+      - eapply rst_trans; [apply rst_step; exact S | exact O].
+      - eapply rst_trans; [apply rst_sym, rst_step; exact S | exact O].
+    Qed.
+
+    Lemma grown_clean : adds m -> clean Y.
+    Proof.
+      intros G. split; [apply wf_Y | apply settled_Y | apply ends_Y |]. split.
+      - apply registers_Y.
+      - apply parents_Y.
+      - intros c. now apply grown_tree.
+      - intros v. now apply grown_paths.
+      - apply names_Y.
+      - apply declared_Y.
+    Qed.
+(*REST*)
   End Step.
 End Sequential.
