@@ -556,6 +556,162 @@ Section Sequential.
       - apply names_Y.
       - apply declared_Y.
     Qed.
-(*REST*)
+
+    (** *** Mutations 4 to 6 strand nothing, and so leave nothing to reattach or to hang from ROOT *)
+
+    Lemma none_stranded v : In v (vertices X) -> is_stranded D X v = false.
+    Proof.
+      intros I. apply not_true_iff_false. intros S. apply stranded_iff in S as [S | S].
+      - apply (reported_detached D allows X) in S. now rewrite no_report in S.
+      - apply S. apply joined_incl with (l := visible X); [| now apply (all_paths _ _ _ U)].
+        intros c. apply (unbroken_shows_all D allows); [apply C | exact U].
+    Qed.
+
+    Lemma shrinks_strands_nothing : ~ adds m -> strands_nothing X Y = true.
+    Proof.
+      intros N. pose proof A as A'. unfold Y.
+      destruct m as [ty nm ext ats other lb outgoing lats | k0 ats | tg up | k0 | old0 new0 ats | vx];
+        cbn [accepts] in A'; rewrite ?andb_true_iff in A'; simpl in N; tauto.
+    Qed.
+
+    Lemma shrinks_not_stranded v : ~ adds m -> In v (vertices Y) -> is_stranded D Y v = false.
+    Proof.
+      intros N I. pose proof (shrinks_strands_nothing N) as S. unfold strands_nothing in S.
+      rewrite forallb_forall in S. specialize (S v I). destruct (vertices_Y v I) as [J | (n & E)].
+      - rewrite (none_stranded v J) in S. now destruct (is_stranded D Y v).
+      - destruct m; simpl in *; try easy; tauto.
+    Qed.
+
+    (** What has no second parent, no cycle, and nobody stranded, is one tree with paths for all. *)
+    Lemma shrunk_clean : ~ adds m -> acyclic from to (kinematic Y) -> clean Y.
+    Proof.
+      intros N Ac. split; [apply wf_Y | apply settled_Y | apply ends_Y |].
+      assert (Up : unique_parents to (kinematic Y)) by (apply nodup_map; [apply kinematic_nodup | apply parents_Y]).
+      destruct (nothing_hidden eq_dec Up Ac) as [Ay _]. fold (accepted Y) in Ay. split.
+      - apply registers_Y.
+      - apply parents_Y.
+      - intros c I. assert (J : In c (accepted Y)) by (rewrite Ay; now apply -> in_rev).
+        destruct (way_up_ends D allows Y (from c)) as (t & Wt & T).
+        + unfold in_tree. pose proof (placement_spec Y (from c)) as Pl. destruct (placement Y (from c)); auto.
+          destruct Pl as [_ Pl]. now destruct (Pl c J).
+        + destruct T as [-> | T]; [eapply up_incl; [| exact Wt]; intros d; apply accepted_kinematic |].
+          apply reported_detached in T. pose proof T as V. apply detached_in, filter_In in V as [V _].
+          apply shrinks_not_stranded in V; auto. unfold is_stranded in V. now rewrite T in V.
+      - intros v I. apply shrinks_not_stranded in I; auto. unfold is_stranded in I.
+        apply orb_false_elim in I as [_ I]. apply negb_false_iff, eqb_eq in I.
+        apply joined_incl with (l := shown D Y); [intros c; apply shown_visible |]. now apply same_component.
+      - apply names_Y.
+      - apply declared_Y.
+    Qed.
+
+    Lemma acyclic_incl l l' : incl l l' -> acyclic from to l' -> acyclic from to l.
+    Proof. intros I Ac v T. apply (Ac v). eapply above_incl; eauto. Qed.
+
+    Lemma acyclic_X : acyclic from to (kinematic X).
+    Proof. eapply rooted_acyclic, U. Qed.
+
+    (** Without a new kinematic edge there is no new cycle. *)
+    Lemma removed_acyclic : (forall k, new_key X a m = Some k -> is_RT (key_label k) = false) ->
+      acyclic from to (kinematic Y).
+    Proof.
+      intros N. apply acyclic_incl with (l' := kinematic X); [| apply acyclic_X].
+      intros c (I & R & T)%kinematic_in. destruct (visible_Y c I) as [[_ K] | (J & _)].
+      - apply N in K. simpl in K. congruence.
+      - now apply kinematic_in.
+    Qed.
   End Step.
+
+  (** [MUT-5.3] A kinematic edge that moves closes no cycle: the conditions of the new key are asked where the
+      old edge is gone. *)
+  Lemma moved_acyclic X a old new l : clean X -> accepts X a (MoveEdge old new l) = true ->
+    is_RT (key_label new) = true -> acyclic from to (kinematic (mutate D a (MoveEdge old new l) X)).
+  Proof.
+    intros C A Rn. set (m := MoveEdge old new l) in *. set (Y := mutate D a m X).
+    set (Z := mutate D a (RemoveEdge old) X).
+    pose proof (clean_wf X C) as W. pose proof (clean_unbroken X C) as U.
+    assert (EP : edge_possible Z new = true).
+    { unfold m in A. cbn [accepts] in A. rewrite !andb_true_iff in A. unfold Z. tauto. }
+    (* What is left of the old edges is, in Z, accepted as it stands. *)
+    assert (ZX : incl (kinematic Z) (kinematic X)).
+    { intros c (I & R & T)%kinematic_in. apply kinematic_in. split; auto.
+      apply visible_in in I as (G & (s & E) & _). rewrite E in G.
+      apply mutate_held in G as [[] | [G _]]; auto. destruct c as [d x]. simpl in E, G. rewrite E.
+      now apply edge_visible; try apply C. }
+    assert (UZ : unique_parents to (kinematic Z)).
+    { apply nodup_map; [apply kinematic_nodup |]. intros c c' I I'.
+      apply (one_kinematic_parent _ _ _ U); auto. }
+    assert (AZ : acyclic from to (kinematic Z)).
+    { intros v T. eapply (rooted_acyclic _ _ _ U v), above_incl; eauto. }
+    destruct (nothing_hidden eq_dec UZ AZ) as [E _]. fold (accepted Z) in E.
+    assert (YZ : forall c, In c (kinematic Y) ->
+      fst c = new_edge_dot X a m /\ Some new = Some (key c) \/ In c (accepted Z)).
+    { intros c (I & R & T)%kinematic_in. destruct (visible_Y X a m C A c I) as [N | (J & K & _)]; [now left |].
+      right. rewrite E, <- in_rev. apply kinematic_in. split; auto.
+      apply visible_in in J as (G & (s & Ec) & Ne & F & To). pose proof (clean_settled X C) as S.
+      assert (Vz : forall v, in_graph X v = true -> in_graph Z v = true).
+      { intros v. unfold in_graph. destruct (is_root v); auto. simpl.
+        destruct (get X v) as [[t n e s' | |] |] eqn:Gv; try easy. intros _. unfold Z.
+        rewrite (survives X a (RemoveEdge old) v (Vertex t n e s')); auto; try easy.
+        intros I'. now apply (killed_no_vertex X a (RemoveEdge old) v t n e s') in I'. }
+      apply visible_in. repeat split; eauto. apply survives; auto; try easy; [now rewrite Ec |].
+      intros I'. apply K. unfold m. cbn [plan killed make_records] in *. apply in_app_iff. now left. }
+    destruct (existsb (fun c => eqb (fst c) (new_edge_dot X a m)) (kinematic Y)) eqn:B.
+    - apply existsb_exists in B as (c & I & Ec). apply eqb_eq in Ec.
+      assert (F : forest eq_dec from to (c :: accepted Z)).
+      { constructor; [apply kinematic_forest |]. destruct (YZ c I) as [[_ K] | J].
+        - injection K as K. unfold edge_possible in EP. rewrite Rn, K, !andb_true_iff in EP.
+          destruct EP as (_ & ((_ & Pn) & _) & Tn). simpl in Pn, Tn. apply judge_none. split.
+          + apply parent_of_none. now destruct (parent_of Z (to c)).
+          + now apply eqb_neq, negb_true_iff.
+        - (* its dot is new: it cannot be among the old *)
+          exfalso. rewrite E, <- in_rev in J. apply ZX, kinematic_in in J as (J & _).
+          apply visible_records, in_records in J. rewrite Ec in J.
+          assert (H : holds X (new_edge_dot X a m) = true) by (unfold holds; now rewrite J).
+          assert (Sn : seen X (new_edge_dot X a m) = false) by (apply next_dots_unseen; unfold m; lia).
+          apply W in H. congruence. }
+      eapply acyclic_incl; [| exact (forest_acyclic F)]. intros c' I'. destruct (YZ c' I') as [[E' _] | J].
+      + left. apply (same_dot Y); [| | congruence]; eapply visible_records, kinematic_in; eassumption.
+      + now right.
+    - eapply acyclic_incl; [| exact AZ]. intros c I. destruct (YZ c I) as [[Ec _] | J].
+      + apply not_true_iff_false in B. destruct B. apply existsb_exists. exists c. split; auto. now apply eqb_eq.
+      + now apply accepted_kinematic in J.
+  Qed.
+
+  (** ** [VIEW-12] *)
+
+  (** Each of the six, if its conditions hold, keeps a clean state clean. *)
+  Theorem accepted_keeps_clean X a m : clean X -> accepts X a m = true -> clean (mutate D a m X).
+  Proof.
+    intros C A. destruct m as [ty nm ext ats other lb outgoing lats | k ats | tg up | k | old new ats | v].
+    - now apply grown_clean.
+    - now apply grown_clean.
+    - now apply grown_clean.
+    - apply shrunk_clean; auto. now apply removed_acyclic.
+    - apply shrunk_clean; auto. destruct (is_RT (key_label new)) eqn:R.
+      + now apply moved_acyclic.
+      + apply removed_acyclic; auto. intros k [= <-]. exact R.
+    - apply shrunk_clean; auto. now apply removed_acyclic.
+  Qed.
+
+  (** The states that mutations make, one after the other, by whatever authors. *)
+  Inductive sequential : State -> Prop :=
+  | sequential_bottom : sequential bottom
+  | sequential_step X a m : sequential X -> accepts X a m = true -> sequential (mutate D a m X).
+
+  Theorem sequential_clean X : sequential X -> clean X.
+  Proof. induction 1; [apply clean_bottom | now apply accepted_keeps_clean]. Qed.
+
+  (** [VIEW-12] One replica alone never sees a repair: under one dictionary the view reports nothing, *)
+  Theorem sequential_reports_nothing X : sequential X -> repairs D allows X = [].
+  Proof. intros S. now apply clean_reports_nothing, sequential_clean. Qed.
+
+  (** and every edge and write held is shown as it is. *)
+  Theorem sequential_shows_all X : sequential X ->
+    (forall d f t l s, get X d = Some (Edge f t l s) -> In (d, Edge f t l s) (shown D X)) /\
+    shown_writes allows X = live_writes X.
+  Proof.
+    intros S. apply sequential_clean in S. split.
+    - intros d f t l s G. apply (unbroken_shows_all D allows); try apply S. now apply edge_visible; try apply S.
+    - apply (unbroken_shows_all_writes D), S.
+  Qed.
 End Sequential.
