@@ -443,4 +443,74 @@ Proof.
   rewrite app_nil_r in P. eapply forest_permutation; [apply Permutation_sym; exact P | apply shown_forest].
 Qed.
 
+(** ** A new claim, and one that goes [INTENT-1] [INTENT-4] *)
+
+Lemma forest_app l l' : forest (l ++ l') -> forest l'.
+Proof. induction l; simpl; auto. inversion 1; auto. Qed.
+
+Lemma grow_suffix claims : forall accepted, exists new, fst (grow accepted claims) = new ++ accepted.
+Proof.
+  induction claims as [|c rest IH]; intros accepted; simpl; [exists []; auto|].
+  destruct (judge accepted c).
+  - destruct (IH accepted) as [new E]. destruct (grow accepted rest); exists new; auto.
+  - destruct (IH (c :: accepted)) as [new E]. exists (new ++ [c]). rewrite E, <- app_assoc; auto.
+Qed.
+
+Lemma grow_beside e claims : forall accepted with_e,
+  Permutation with_e (e :: accepted) -> forest (e :: fst (grow accepted claims)) ->
+  Permutation (fst (grow with_e claims)) (e :: fst (grow accepted claims)).
+Proof.
+  induction claims as [|c rest IH]; intros accepted with_e P F; auto.
+  destruct (judge accepted c) as [why|] eqn:J; simpl in *; rewrite J in *.
+  - assert (Fe : forest (e :: accepted)).
+    { destruct (grow_suffix rest accepted) as [new E]. destruct (grow accepted rest); simpl in *; subst.
+      eapply forest_app with (l := new). eapply forest_permutation; [|exact F]. apply Permutation_middle. }
+    assert (Fw : forest with_e) by (eapply forest_permutation; [apply Permutation_sym|]; eauto).
+    specialize (IH accepted with_e P).
+    destruct (judge with_e c) eqn:J'; [destruct (grow with_e rest), (grow accepted rest); auto|].
+    exfalso. assert (Fc : forest (e :: c :: accepted)).
+    { eapply forest_permutation with (l := c :: with_e); [|constructor; auto].
+      eapply Permutation_trans; [apply perm_skip; eauto | apply perm_swap]. }
+    inversion Fc as [|? ? Fc']; subst. inversion Fc'; congruence.
+  - destruct (grow_suffix rest (c :: accepted)) as [new E].
+    assert (Fc : forest (c :: with_e)).
+    { rewrite E in F. eapply forest_permutation with (l := c :: e :: accepted); [auto using Permutation_sym|].
+      eapply forest_app with (l := new). eapply forest_permutation; [|exact F].
+      eapply Permutation_trans; [|apply Permutation_app_head, perm_swap]. apply Permutation_middle. }
+    inversion Fc as [|? ? _ J']; subst. rewrite J'. apply IH; auto.
+    eapply Permutation_trans; [apply perm_skip; eauto | apply perm_swap].
+Qed.
+
+(** [INTENT-1] A new claim has the greatest rank, so it is taken first. If it fits what is shown, which is what
+    MUT-2.5 asks, then it is shown, and nothing else changes, whatever is hidden. *)
+Theorem new_claim_shown claims e :
+  forest (e :: shown claims) -> Permutation (shown (e :: claims)) (e :: shown claims).
+Proof.
+  intros F. unfold shown in *. simpl. destruct (grow_suffix claims []) as [new E].
+  assert (F1 : forest [e]).
+  { rewrite E in F. eapply forest_app with (l := new).
+    eapply forest_permutation; [|exact F]. rewrite app_nil_r. apply Permutation_cons_append. }
+  inversion F1 as [|? ? _ J]; subst. rewrite J. apply grow_beside; auto.
+Qed.
+
+(** [INTENT-4] A hidden claim can go without a trace. (To let a claim go that is shown is another matter: see
+    [freed_claim_unseats].) *)
+Theorem hidden_claim_goes before h after :
+  judge (shown before) h <> None -> shown (before ++ h :: after) = shown (before ++ after).
+Proof.
+  intros J. unfold shown in *. rewrite 2 grow_app. simpl.
+  destruct (judge (fst (grow [] before)) h); [|congruence].
+  destruct (grow (fst (grow [] before)) after); auto.
+Qed.
+
 End Forest.
+
+(** [INTENT-4] The limit is real. Vertex 1 hangs below 2, by the greatest claim, and 2 below ROOT, by the least; that
+    1 be above 2 is hidden. When the claim of 1 goes, the hidden one is shown and unseats the claim of 2, which
+    nobody touched. *)
+Theorem freed_claim_unseats :
+  let one_below_two := (2, 1) in let two_below_one := (1, 2) in let two_below_root := (0, 2) in
+  let shown := shown Nat.eq_dec fst snd in
+  shown [one_below_two; two_below_one; two_below_root] = [two_below_root; one_below_two]
+  /\ shown [two_below_one; two_below_root] = [two_below_one].
+Proof. split; reflexivity. Qed.

@@ -353,7 +353,7 @@ Section Sequential.
       - apply (same_dot Y); auto using visible_records. congruence.
       - rewrite N' in F; auto. discriminate.
       - rewrite N in F'; auto. discriminate.
-      - apply (one_kinematic_parent _ _ _ U); auto; now apply kinematic_in.
+      - apply (one_kinematic_parent D allows X U c c'); [now apply kinematic_in | now apply kinematic_in | exact E].
     Qed.
 
     (** No vertex appears but the one that is added. *)
@@ -660,8 +660,9 @@ Section Sequential.
       assert (F : forest eq_dec from to (c :: accepted Z)).
       { constructor; [apply kinematic_forest |]. destruct (YZ c I) as [[_ K] | J].
         - injection K as K. unfold edge_possible in EP. rewrite Rn, K, !andb_true_iff in EP.
-          destruct EP as (_ & ((_ & Pn) & _) & Tn). simpl in Pn, Tn. apply judge_none. split.
-          + apply parent_of_none. now destruct (parent_of Z (to c)).
+          destruct EP as (_ & ((_ & Pn) & _) & Tn).
+          unfold View.key in Pn, Tn. cbn [key_from key_to] in Pn, Tn. apply judge_none. split.
+          + apply parent_of_none. destruct (parent_of Z (to c)); [discriminate | reflexivity].
           + now apply eqb_neq, negb_true_iff.
         - (* its dot is new: it cannot be among the old *)
           exfalso. rewrite E, <- in_rev in J. apply ZX, kinematic_in in J as (J & _).
@@ -715,3 +716,98 @@ Section Sequential.
     - apply (unbroken_shows_all_writes D), S.
   Qed.
 End Sequential.
+
+(** ** Runs, and what VIEW-12 rests on *)
+
+(** Mutations one after the other; none if one is refused. *)
+Fixpoint run (D : Dictionary) (allows : Name -> N -> bool) (ms : list (Author * Mutation)) (X : State) : option State :=
+  match ms with
+  | [] => Some X
+  | (a, m) :: ms => if accepts D allows X a m then run D allows ms (mutate D a m X) else None
+  end.
+
+Theorem run_is_sequential D allows ms : forall X Y,
+  sequential D allows X -> run D allows ms X = Some Y -> sequential D allows Y.
+Proof.
+  induction ms as [| [a m] ms IH]; simpl; intros X Y S; [congruence |].
+  destruct (accepts D allows X a m) eqn:A; [| easy]. apply IH. now constructor.
+Qed.
+
+Section Examples.
+  Open Scope string_scope.
+  Let by_agent (n : N) : Author := {| me := {| agent := n; incarnation := 0 |}; time_ns := 0 |}.
+  Let one := by_agent 1.
+  Let two := by_agent 2.
+  Let no_attributes : Attributes := empty.
+  Let k f l t : Key := {| key_from := f; key_to := t; key_label := l |}.
+  Let true_ : Value := {| value_type := 4; items := [1%Z] |}.
+  Let plain : Dictionary := {| functional := fun _ => false |}.
+  Let rooms : Dictionary := {| functional := fun l => eqb l "in" |}.
+  Let open_ : Name -> N -> bool := fun _ _ => true.
+
+  (** The conditions are not void: a story of all six, by two authors, each of them accepted. Two rooms (r1.1,
+      r1.3), a robot in the first (r2.1), a camera on the robot (r2.3); the robot sees the camera, moves, and sees
+      it no more; the camera goes. *)
+  Let story : list (Author * Mutation) :=
+    [ (one, AddVertex "room" "kitchen" None no_attributes ROOT "RT" false no_attributes);
+      (one, AddVertex "room" "hall" None no_attributes ROOT "RT" false no_attributes);
+      (two, AddVertex "robot" "tim" None no_attributes (r 1 1) "RT" false no_attributes);
+      (two, AddVertex "camera" "eye" None no_attributes (r 2 1) "RT" false no_attributes);
+      (one, AddEdge (k (r 2 1) "in" (r 1 1)) no_attributes);
+      (one, AddEdge (k (r 2 1) "sees" (r 2 3)) no_attributes);
+      (one, UpdateAttributes (r 2 3) (insert "on" (Some true_) empty));
+      (two, MoveEdge (k (r 2 1) "in" (r 1 1)) (k (r 2 1) "in" (r 1 3)) no_attributes);
+      (two, MoveEdge (k (r 1 1) "RT" (r 2 1)) (k (r 1 3) "RT" (r 2 1)) no_attributes);
+      (one, RemoveEdge (k (r 2 1) "sees" (r 2 3)));
+      (one, RemoveVertex (r 2 3)) ].
+
+  Theorem story_is_accepted :
+    match run rooms open_ story bottom with
+    | Some X => map fst (shown rooms X) = [r 2 5; r 1 2; r 1 4; r 2 6] /\ repairs rooms open_ X = []
+    | None => False
+    end.
+  Proof. vm_compute. split; reflexivity. Qed.
+
+  (** "Under one dictionary": two places are no repair until the dictionary calls the label functional. *)
+  Theorem one_dictionary_is_needed :
+    match run plain open_
+      [ (one, AddVertex "room" "kitchen" None no_attributes ROOT "RT" false no_attributes);
+        (one, AddVertex "room" "hall" None no_attributes ROOT "RT" false no_attributes);
+        (one, AddVertex "robot" "tim" None no_attributes (r 1 1) "in" true no_attributes);
+        (one, AddEdge (k (r 1 5) "in" (r 1 3)) no_attributes) ] bottom
+    with
+    | Some X => repairs plain open_ X = [] /\ repairs rooms open_ X = [Superseded (r 1 6) (r 1 7) Functional]
+    | None => False
+    end.
+  Proof. vm_compute. split; reflexivity. Qed.
+
+  (** "A view without repairs" alone is not kept: an accepted mutation can make a pending claim visible, if its author
+      anchored the claim to a dot that was not made yet. Honest authors do not (NET-5); WF-1 to WF-6 allow it. *)
+  Let waiting : State :=
+    make (fun d => if eqb d (r 2 1) then Held (Vertex "room" "hall" None 1)
+                   else if eqb d (r 2 2) then Held (Edge ROOT (r 2 1) "holds" 1)
+                   else Held (Edge (r 1 1) (r 2 1) "RT" 2)) [r 2 1; r 2 2; r 2 3].
+  Let newcomer : Mutation := AddVertex "robot" "tim" None no_attributes ROOT "in" true no_attributes.
+
+  Theorem pending_claim_surfaces :
+    check_wf waiting = true /\ check_anchors waiting = true /\ repairs plain open_ waiting = [] /\
+    accepts plain open_ waiting one newcomer = true /\
+    repairs plain open_ (mutate plain one newcomer waiting) = [Detached (r 1 1)].
+  Proof. vm_compute. repeat split; reflexivity. Qed.
+
+  (** MUT-4.2 is needed: each of these is refused, and would have stranded somebody. *)
+  Theorem stranding_is_refused :
+    match run plain open_
+      [ (one, AddVertex "robot" "tim" None no_attributes ROOT "RT" false no_attributes);
+        (one, AddVertex "camera" "eye" None no_attributes (r 1 1) "RT" false no_attributes) ] bottom
+    with
+    | Some X =>
+        let cut := RemoveEdge (k ROOT "RT" (r 1 1)) in
+        let drop := RemoveVertex (r 1 1) in
+        accepts plain open_ X one cut = false /\ accepts plain open_ X one drop = false /\
+        repairs plain open_ (mutate plain one cut X) = [Detached (r 1 1)] /\
+        repairs plain open_ (mutate plain one drop X) = [Reattached (r 1 3)]
+    | None => False
+    end.
+  Proof. vm_compute. repeat split; reflexivity. Qed.
+End Examples.
