@@ -1031,4 +1031,65 @@ Section View.
   Proof.
     split; [now apply silent_only_if_unbroken | now apply unbroken_reports_nothing].
   Qed.
+
+  (** [VIEW-3] What is refused is not shown. *)
+  Theorem refused_not_accepted X h why : In (h, why) (refused X) -> ~ In h (accepted X).
+  Proof.
+    intros R A. pose proof (kinematic_nodup X) as N.
+    apply (Permutation_NoDup (shown_or_hidden eq_dec from to (kinematic X))) in N.
+    apply (in_map fst) in R. simpl in R. fold (accepted X) in N. fold (refused X) in N.
+    induction (accepted X) as [| a l IH]; [easy |]. inversion N as [| ? ? F N']; subst.
+    destruct A as [-> | A]; [| now apply IH]. apply F, in_app_iff. now right.
+  Qed.
+
+  (** [VIEW-9] [VIEW-10] Each report by itself is caused by a break, and says truly what is shown instead. *)
+  Theorem report_has_cause X p : In p (repairs X) ->
+    match p with
+    | Superseded h s _ => exists lesser greater, fst lesser = h /\ fst greater = s /\
+        In lesser (visible X) /\ In greater (shown X) /\
+        competes D (key lesser) (snd greater) = true /\ ltb (claim_rank lesser) (claim_rank greater) = true
+    | CycleBroken h => exists c greater, fst c = h /\ In c (kinematic X) /\ incl greater (accepted X) /\
+        Forall (fun s => ltb (claim_rank s) (claim_rank c) = false) greater /\
+        connected from to greater (from c) (to c)
+    | Detached v => v <> ROOT /\ (forall c, In c (accepted X) -> to c <> v) /\
+        exists c, In c (accepted X) /\ from c = v
+    | Reattached v => In v (vertices X) /\ ~ joined (map ends (shown X)) v ROOT
+    | NameClash n w v => In v (vertices X) /\ name_of X v = Some n /\ by_name X n = Some w /\ w <> v
+    | Undeclared d => exists c, fst c = d /\ In c (live_writes X) /\ declared c = false
+    end.
+  Proof.
+    intros I. pose proof I as I0. unfold repairs in I. rewrite !in_app_iff in I.
+    destruct I as [I | [I | [I | [I | [I | I]]]]].
+    - apply in_flat_map in I as (h & H & I). destruct (wins X h) eqn:Wh; [easy |].
+      apply in_map_iff in I as (s & <- & I). apply filter_In in I as [J Ws].
+      pose proof J as G. apply competitors_in in J as [J C]. exists h, s. repeat split; auto.
+      + now apply symbolic_in in H.
+      + apply in_app_iff. left. now apply filter_In.
+      + apply not_false_iff_true. intros L. assert (h = s); [| congruence].
+        apply (same_rank X); auto using records_symbolic. unfold wins in Ws. rewrite is_greatest_spec in Ws.
+        apply Ws, (competitors_same X h s); auto. apply competitors_in. split; auto.
+        now apply competes_refl with X.
+    - apply in_map_iff in I as ([h why] & <- & I). pose proof (refused_has_cause X h why I) as C.
+      pose proof (refused_not_accepted X h why I) as N.
+      assert (K : In h (kinematic X)).
+      { eapply Permutation_in; [apply Permutation_sym, (shown_or_hidden eq_dec from to) |].
+        apply in_app_iff. right. now apply (in_map fst) in I. }
+      unfold refusal. simpl. destruct why as [s |].
+      + destruct C as (S & T & L). exists h, s. pose proof S as Ks. apply accepted_kinematic in Ks.
+        pose proof K as (V & R & _)%kinematic_in. pose proof Ks as (V' & R' & _)%kinematic_in.
+        repeat split; auto.
+        * apply in_app_iff. now right.
+        * apply visible_in in V' as (_ & (x & E) & _). rewrite E. simpl. rewrite R'.
+          apply eqb_eq in R, R'. rewrite R, R', T. now rewrite !eqb_refl.
+        * apply not_false_iff_true. intros L'. apply N. replace h with s; auto.
+          apply (same_rank X); auto using visible_records.
+      + destruct C as (g & G1 & G2 & G3). exists h, g. auto.
+    - apply in_map_iff in I as (v & <- & I). now apply is_detached_iff, detached_in.
+    - apply in_map_iff in I as (v & <- & I). apply reattached_in in I as (J & N & _). split; auto.
+      now rewrite <- same_component.
+    - apply in_flat_map in I as (v & J & I). destruct (name_of X v) as [n |] eqn:En; [| easy].
+      destruct (by_name X n) as [w |] eqn:B; [| easy]. destruct (eqb w v) eqn:Q; [easy |].
+      destruct I as [<- | []]. apply eqb_neq in Q. auto.
+    - apply in_map_iff in I as (c & <- & I). apply filter_In in I as [I N]. apply negb_true_iff in N. eauto.
+  Qed.
 End View.
