@@ -238,16 +238,17 @@ Section Sequential.
   Qed.
 
   (** A vertex or an edge outlives a mutation that kills neither it nor a vertex. *)
-  Lemma survives X a m d x : wf X -> settled X -> possible X m = true -> (forall v, m <> RemoveVertex v) ->
+  Lemma survives X a m d x : wf X -> possible X m = true -> (forall v, m <> RemoveVertex v) ->
+    (forall b, In b (anchors x) -> b = ROOT \/ exists y, get X b = Some y /\ may_anchor x y = true) ->
     get X d = Some x -> match x with Write _ _ _ _ _ => False | _ => True end ->
     ~ In d (killed (plan D X a m)) -> get (mutate D a m X) d = Some x.
   Proof.
-    intros W S Q N G K NK. pose proof (plan_sound D X a m W Q) as P.
+    intros W Q N S G K NK. pose proof (plan_sound D X a m W Q) as P.
     set (M := merge X (delta_of (plan D X a m))).
     assert (H : forall b y, get X b = Some y -> ~ In b (killed (plan D X a m)) -> cond M b = Held y)
       by (intros b y; apply cond_merge_kept; auto).
     assert (A : forall b, In b (anchors x) -> is_dead M b = false /\ ~ doomed M b).
-    { intros b I. destruct (S _ _ _ G I) as [-> | (y & E & V)].
+    { intros b I. destruct (S _ I) as [-> | (y & E & V)].
       - pose proof (root_unseen X _ W P : cond M ROOT = Unseen) as R. split.
         + apply not_true_iff_false. rewrite <- cond_dead. now rewrite R.
         + inversion 1 as [? ? ? F | ? ? ? F]; apply cond_held in F; now rewrite R in F.
@@ -264,6 +265,114 @@ Section Sequential.
     - apply cond_dead in F. congruence.
     - inversion F as [? x' b F' J Dd | ? x' b F' J Dd]; apply cond_held in F'; rewrite B in F';
         injection F' as <-; apply A in J as [J1 J2]; congruence || auto.
+  Qed.
+
+  Lemma vertex_stays X a m v : wf X -> possible X m = true -> (forall u, m <> RemoveVertex u) ->
+    in_graph X v = true -> in_graph (mutate D a m X) v = true.
+  Proof.
+    intros W Q N. unfold in_graph. destruct (is_root v); auto. simpl.
+    destruct (get X v) as [[t n e s | |] |] eqn:G; try easy. intros _.
+    rewrite (survives X a m v (Vertex t n e s)); auto; [easy |].
+    intros I. now apply (killed_no_vertex X a m v t n e s) in I.
+  Qed.
+
+  (** [WF-4] What a new edge joins. *)
+  Lemma new_key_ends X a m k : wf X -> accepts X a m = true -> new_key X a m = Some k ->
+    key_from k <> key_to k /\ (key_label k = RT -> key_to k <> ROOT).
+  Proof.
+    intros W A G. assert (H : forall Z k, edge_possible Z k = true ->
+      key_from k <> key_to k /\ (key_label k = RT -> key_to k <> ROOT)).
+    { intros Z k' E. apply edge_possible_ends in E as (_ & _ & N & R). split; auto. intros E. apply R.
+      now rewrite E. }
+    destruct m as [ty nm ext ats other lb outgoing lats | k0 ats | tg up | k0 | old new ats | vx];
+      cbn [new_key accepts] in G, A; try discriminate; injection G as <-.
+    - rewrite !andb_true_iff in A. destruct A as ((_ & O) & R). pose proof (next_dot_new X a W) as S.
+      assert (N : next_dot X (me a) <> ROOT) by (intros N; now rewrite N in S).
+      destruct outgoing; cbn [key_from key_to key_label].
+      + split; [intros E; congruence |]. intros ->. discriminate.
+      + split; [intros E; congruence | auto].
+    - apply andb_prop in A as [A _]. eauto.
+    - rewrite !andb_true_iff in A. destruct A as ((_ & E) & _). eauto.
+  Qed.
+
+  Definition new_edge (X : State) (a : Author) (m : Mutation) (k : Key) : Claim :=
+    (new_edge_dot X a m, edge_record X k).
+
+  Lemma new_edge_made X a m k : new_key X a m = Some k -> In (new_edge X a m k) (made (plan D X a m)).
+  Proof.
+    intros K. unfold new_edge, new_edge_dot.
+    destruct m as [ty nm ext ats other lb outgoing lats | k0 ats | tg up | k0 | old new ats | vx];
+      cbn [new_key plan made make_records numbered] in *; try discriminate; injection K as <-.
+    - right. now left.
+    - rewrite N.add_0_r. now left.
+    - rewrite N.add_0_r. now left.
+  Qed.
+
+  (** *** [INTENT-1] A new edge is shown at once, in whatever state *)
+
+  Lemma new_edge_visible X a m k : wf X -> accepts X a m = true -> new_key X a m = Some k ->
+    In (new_edge X a m k) (visible (mutate D a m X)).
+  Proof.
+    intros W A K. pose proof (accepts_possible X a m W A) as Q. pose proof (plan_sound D X a m W Q) as P.
+    assert (N : forall u, m <> RemoveVertex u) by (intros u ->; discriminate).
+    assert (V : in_graph (mutate D a m X) (key_from k) = true /\ in_graph (mutate D a m X) (key_to k) = true).
+    { pose proof (fun v => vertex_stays X a m v W Q N) as S.
+      destruct m as [ty nm ext ats other lb outgoing lats | k0 ats | tg up | k0 | old new ats | vx];
+        cbn [new_key accepts] in K, A; try discriminate; injection K as <-.
+      - rewrite !andb_true_iff in A. destruct A as ((_ & O) & _). apply S in O.
+        assert (L : in_graph (mutate D a (AddVertex ty nm ext ats other lb outgoing lats) X) (next_dot X (me a)) = true).
+        { unfold in_graph, mutate.
+          rewrite (made_lives X _ W P _ (Vertex ty nm ext (1 + greatest_stamp X))) by now left. apply orb_true_r. }
+        destruct outgoing; now split.
+      - apply andb_prop in A as [A _]. apply edge_possible_ends in A as (F & T & _). split; now apply S.
+      - rewrite !andb_true_iff in A. destruct A as ((_ & E) & _). apply edge_possible_ends in E as (F & T & _).
+        split; apply S; (eapply in_graph_old; [exact W | | | eassumption]; [reflexivity | easy]). }
+    apply visible_in. unfold new_edge, from, to, label, edge_record. simpl. repeat split; eauto; try apply V.
+    - apply (made_lives X _ W P), new_edge_made, K.
+    - now apply (new_key_ends X a m k) in K.
+  Qed.
+
+  (** It outranks every other claim. *)
+  Lemma new_edge_greatest X a m k c : wf X -> accepts X a m = true -> new_key X a m = Some k ->
+    In c (visible (mutate D a m X)) -> c <> new_edge X a m k ->
+    ltb (claim_rank c) (claim_rank (new_edge X a m k)) = true.
+  Proof.
+    intros W A K I N. pose proof (accepts_possible X a m W A) as Q. pose proof I as V.
+    apply visible_in in V as (G & (s & E) & _). rewrite E in G. apply mutate_held in G as [G | [G _]]; auto.
+    - exfalso. apply N, (same_dot (mutate D a m X)); [now apply visible_records | |].
+      + now apply visible_records, new_edge_visible.
+      + now apply made_spec in G as [_ ->].
+    - apply ltb_lt. rewrite <- E in G. now apply (next_stamp_outranks X).
+  Qed.
+
+  Lemma sorted_head (c : Claim) l : sorted claim_rank l -> In c l ->
+    (forall d, In d l -> d <> c -> ltb (claim_rank d) (claim_rank c) = true) -> exists rest, l = c :: rest.
+  Proof.
+    intros S I B. destruct l as [| x l]; [easy |]. destruct I as [-> | I]; [eauto |].
+    inversion S as [| ? ? F _]; subst. rewrite Forall_forall in F.
+    assert (R : {x = c} + {x <> c}) by (decide equality; apply eq_dec).
+    destruct R as [-> | R]; [eauto |]. specialize (B x (or_introl eq_refl) R).
+    rewrite (F c I) in B. discriminate.
+  Qed.
+
+  (** [INTENT-1] [MUT-1] [MUT-2] [MUT-5] Afterwards the new edge is shown: of *any* well-formed state, whatever is
+      hidden, pending or broken in it. The tree cannot refuse it, since it is taken first. *)
+  Theorem new_edge_shown X a m k : wf X -> accepts X a m = true -> new_key X a m = Some k ->
+    In (new_edge X a m k) (shown D (mutate D a m X)).
+  Proof.
+    intros W A K. pose proof (new_edge_visible X a m k W A K) as V. unfold shown. apply in_app_iff.
+    destruct (new_key_ends X a m k W A K) as [Ne Nr]. destruct (is_RT (key_label k)) eqn:R; [right | left].
+    - assert (I : In (new_edge X a m k) (kinematic (mutate D a m X))).
+      { apply kinematic_in. repeat split; auto. now apply Nr, eqb_eq. }
+      destruct (sorted_head _ _ (kinematic_sorted _) I) as (rest & E).
+      { intros d J N. apply kinematic_in in J as [J _]. now apply new_edge_greatest. }
+      unfold accepted. rewrite E. unfold Forest.shown. simpl.
+      assert (J : judge eq_dec from to [] (new_edge X a m k) = None) by (apply judge_none; split; easy).
+      rewrite J. apply grow_keeps. now left.
+    - apply filter_In. split; [now apply symbolic_in |]. apply is_greatest_spec. intros d [I _]%competitors_in.
+      assert (Q : {d = new_edge X a m k} + {d <> new_edge X a m k}) by (decide equality; apply eq_dec).
+      destruct Q as [-> | Q]; [apply ltb_irrefl |]. apply ltb_asym. apply symbolic_in in I as [I _].
+      now apply new_edge_greatest.
   Qed.
 
   (** Mutations 1 to 3. *)
@@ -413,38 +522,20 @@ Section Sequential.
     Lemma ends_Y : right_ends Y.
     Proof.
       intros d x G. destruct x as [| f t l s |]; try easy. simpl. apply held_Y in G as [G | [G _]].
-      - apply made_spec in G as [G _]; auto. pose proof A as A'.
-        assert (H : forall Z k, edge_possible Z k = true -> Some k = Some {| key_from := f; key_to := t; key_label := l |} ->
-          f <> t /\ (l = RT -> t <> ROOT)).
-        { intros Z k E [= ->]. apply edge_possible_ends in E as (_ & _ & N & R). split; auto. intros ->. now apply R. }
-        destruct m; cbn [new_key] in G; try easy; cbn [accepts] in A'.
-        + rewrite !andb_true_iff in A'. destruct A' as (((((_ & _) & _) & _) & O) & R).
-          pose proof (next_dot_new X a W) as S.
-          assert (N : next_dot X (me a) <> ROOT) by (intros N; now rewrite N in S).
-          destruct outgoing; injection G as <- <- <-.
-          * split; [intros <-; congruence |]. intros ->. simpl in R. discriminate.
-          * split; [intros ->; congruence | auto].
-        + apply andb_prop in A' as [A' _]. eapply H; eauto.
-        + rewrite !andb_true_iff in A'. destruct A' as ((_ & E) & _).
-          eapply H; eauto.
+      - apply made_spec in G as [G _]; auto. now apply new_key_ends in G.
       - now apply (clean_ends X C) in G.
     Qed.
 
     Lemma vertex_survives v : (forall u, m <> RemoveVertex u) -> In v (vertices X) -> In v (vertices Y).
-    Proof.
-      rewrite !vertices_in. unfold in_graph. intros N. destruct (is_root v); auto. simpl.
-      destruct (get X v) as [[t n e s | |] |] eqn:G; try easy. intros _.
-      assert (H : get Y v = Some (Vertex t n e s)).
-      { apply survives; auto; [apply C |]. intros I. now apply (killed_no_vertex X a m v t n e s) in I. }
-      now rewrite H.
-    Qed.
+    Proof. rewrite !vertices_in. intros N. now apply vertex_stays. Qed.
 
     Lemma edge_survives c : (forall u, m <> RemoveVertex u) -> In c (visible X) ->
       ~ In (fst c) (killed (plan D X a m)) -> In c (visible Y).
     Proof.
       intros N I K. apply visible_in in I as (G & (s & E) & NE & F & T).
       rewrite <- vertices_in in F, T. apply vertex_survives, vertices_in in F, T; auto.
-      apply visible_in. repeat split; eauto. apply survives; auto; [apply C |]. now rewrite E.
+      apply visible_in. repeat split; eauto.
+      apply survives; auto; [intros b; apply (clean_settled X C _ _ b G) |]. now rewrite E.
     Qed.
 
     (** *** Mutations 1 to 3 kill no edge of a clean state, and so keep every path *)
@@ -531,13 +622,8 @@ Section Sequential.
       { intros u J. apply joined_incl with (l := visible X); [intros c; now apply grown_edges |].
         now apply (all_paths _ _ _ U). }
       destruct (vertices_Y v I) as [J | (n & N)]; auto.
-      assert (S : exists k x, new_key X a m = Some k /\
-        In (new_edge_dot X a m, Edge (key_from k) (key_to k) (key_label k) x) (made (plan D X a m))).
-      { destruct m as [ty nm ext ats other lb outgoing lats | k0 ats | tg up | k0 | old0 new0 ats | vx]; try easy. unfold new_edge_dot. cbn [new_key plan made make_records numbered].
-        do 2 eexists. split; [reflexivity |]. right. left. unfold edge_record, next_dot.
-        destruct outgoing; reflexivity. }
-      destruct S as (k & x & K & S). apply (made_lives X _ W P) in S.
-      apply edge_visible, (in_map ends) in S; [| apply settled_Y | apply ends_Y].
+      assert (K : exists k, new_key X a m = Some k) by (destruct m; try easy; eexists; reflexivity).
+      destruct K as (k & K). pose proof (new_edge_visible X a m k W A K) as S. apply (in_map ends) in S.
       unfold ends at 1, from, to in S. simpl in S. pose proof A as A'.
       destruct m as [ty nm ext ats other lb outgoing lats | k0 ats | tg up | k0 | old0 new0 ats | vx]; try easy. cbn [new_vertex new_key accepts] in *. injection N as <- _.
       rewrite !andb_true_iff in A'. destruct A' as ((_ & O) & _). apply vertices_in, old in O.
@@ -649,11 +735,9 @@ Section Sequential.
       right. rewrite E, <- in_rev. apply kinematic_in. split; auto.
       apply visible_in in J as (G & (s & Ec) & Ne & F & To). pose proof (clean_settled X C) as S.
       assert (Vz : forall v, in_graph X v = true -> in_graph Z v = true).
-      { intros v. unfold in_graph. destruct (is_root v); auto. simpl.
-        destruct (get X v) as [[t n e s' | |] |] eqn:Gv; try easy. intros _. unfold Z.
-        rewrite (survives X a (RemoveEdge old) v (Vertex t n e s')); auto; try easy.
-        intros I'. now apply (killed_no_vertex X a (RemoveEdge old) v t n e s') in I'. }
-      apply visible_in. repeat split; eauto. apply survives; auto; try easy; [now rewrite Ec |].
+      { intros v. now apply vertex_stays. }
+      apply visible_in. repeat split; eauto.
+      apply survives; auto; try easy; [intros b; apply (S _ _ b G) | now rewrite Ec |].
       intros I'. apply K. unfold m. cbn [plan killed make_records] in *. apply in_app_iff. now left. }
     destruct (existsb (fun c => eqb (fst c) (new_edge_dot X a m)) (kinematic Y)) eqn:B.
     - apply existsb_exists in B as (c & I & Ec). apply eqb_eq in Ec.
