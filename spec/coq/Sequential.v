@@ -375,6 +375,113 @@ Section Sequential.
       now apply new_edge_greatest.
   Qed.
 
+  (** [MUT-4] Afterwards no edge of the register is shown. *)
+  Theorem removed_edge_hidden X a k c : wf X ->
+    In c (shown D (mutate D a (RemoveEdge k) X)) -> competes D k (snd c) = false.
+  Proof.
+    intros W I. apply no_dangling_edge in I as (G & _). eapply remove_edge_clears; eauto.
+  Qed.
+
+  (** [MUT-5] Afterwards nothing is shown on the old register, unless it is the new one. *)
+  Theorem moved_edge_hidden X a old new l c : wf X -> accepts X a (MoveEdge old new l) = true ->
+    In c (shown D (mutate D a (MoveEdge old new l) X)) -> competes D old (snd c) = true ->
+    fst c = new_edge_dot X a (MoveEdge old new l).
+  Proof.
+    intros W A I C. apply no_dangling_edge in I as (G & _). unfold new_edge_dot. rewrite N.add_0_r.
+    apply (move_edge_claims D a X old new l W (accepts_possible X a _ W A)) in G; auto.
+  Qed.
+
+  (** [MUT-6] Afterwards the vertex is not in the graph. *)
+  Theorem removed_vertex_gone X a v : wf X -> accepts X a (RemoveVertex v) = true ->
+    ~ In v (vertices (mutate D a (RemoveVertex v) X)).
+  Proof.
+    intros W A I. pose proof (accepts_possible X a _ W A) as Q. pose proof (plan_sound D X a _ W Q) as P.
+    apply vertices_in in I. unfold in_graph in I. apply orb_prop in I as [I | I].
+    - cbn [possible] in Q. apply andb_prop in Q as [Q _]. unfold is_root in *. now rewrite I in Q.
+    - destruct (get (mutate D a (RemoveVertex v) X) v) as [x |] eqn:G; [| easy].
+      assert (K : In v (killed (plan D X a (RemoveVertex v)))) by now left.
+      apply (killed_dies X _ W P), cond_dead in K. apply cond_held in G. unfold mutate in G. congruence.
+  Qed.
+
+  (** [MUT-1] Afterwards the name finds the new vertex. *)
+  Theorem new_vertex_found X a m v n : wf X -> accepts X a m = true -> new_vertex X a m = Some (v, n) ->
+    by_name (mutate D a m X) n = Some v.
+  Proof.
+    intros W A N. pose proof (accepts_possible X a m W A) as Q. pose proof (plan_sound D X a m W Q) as P.
+    destruct m as [ty nm ext ats other lb outgoing lats | | | | |]; try discriminate.
+    injection N as <- <-. pose proof A as A'. cbn [accepts] in A'. rewrite !andb_true_iff, negb_true_iff in A'.
+    destruct A' as (((((R & B) & _) & _) & _) & _).
+    set (m := AddVertex ty nm ext ats other lb outgoing lats) in *.
+    assert (G : get (mutate D a m X) (next_dot X (me a)) = Some (Vertex ty nm ext (1 + greatest_stamp X))).
+    { apply (made_lives X _ W P). now left. }
+    assert (U : forall w, name_of (mutate D a m X) w = Some nm -> w = next_dot X (me a)).
+    { intros w E. unfold name_of in E. destruct (get (mutate D a m X) w) as [[t n e s | |] |] eqn:H; try easy.
+      injection E as ->. apply mutate_held in H as [H | [H _]]; auto.
+      - apply made_spec in H; auto. unfold m in H. cbn [new_vertex] in H. now injection H.
+      - exfalso. pose proof (name_finds_oldest X nm R) as F. destruct (by_name X nm); [easy |].
+        apply (F w); [apply vertices_in; unfold in_graph | unfold name_of]; rewrite H; auto. apply orb_true_r. }
+    pose proof (name_finds_oldest (mutate D a m X) nm R) as F. destruct (by_name (mutate D a m X) nm) as [w |].
+    - destruct F as (_ & E & _). now rewrite (U w E).
+    - exfalso. apply (F (next_dot X (me a))); [apply vertices_in; unfold in_graph | unfold name_of]; rewrite G; auto.
+      apply orb_true_r.
+  Qed.
+
+  Lemma element_stays X a t u : wf X -> accepts X a (UpdateAttributes t u) = true ->
+    is_element (mutate D a (UpdateAttributes t u) X) t = true.
+  Proof.
+    intros W A. pose proof (accepts_possible X a _ W A) as Q.
+    pose proof (fun v => vertex_stays X a _ v W Q ltac:(easy)) as S.
+    cbn [accepts] in A. rewrite !andb_true_iff in A. destruct A as ((T & _) & _). unfold is_element.
+    apply orb_prop in T as [T | T]; [now rewrite S |]. apply existsb_exists in T as (c & I & E).
+    apply eqb_eq in E as <-. apply shown_visible, visible_in in I as (G & (s & E) & Ne & F & T).
+    assert (V : forall b, in_graph X b = true -> b = ROOT \/ exists y, get X b = Some y /\ may_anchor (snd c) y = true).
+    { intros b B. unfold in_graph in B. apply orb_prop in B as [B | B]; [left; now apply eqb_eq | right].
+      destruct (get X b) as [[] |]; try easy. eexists. split; eauto. now rewrite E. }
+    rewrite (survives X a _ (fst c) (snd c) W Q); auto; try easy.
+    - unfold is_visible. rewrite E. simpl. apply S in F, T. unfold from, to in *. rewrite E in *. simpl in *.
+      rewrite F, T. apply eqb_neq in Ne. rewrite Ne. now rewrite !andb_true_r, orb_true_r.
+    - intros b B. apply V. rewrite E in B. now destruct B as [<- | [<- | []]].
+    - now rewrite E.
+    - intros K. cbn [plan killed make_records] in K. apply writes_in in K as (x & G' & n & v & z & s' & ->). congruence.
+  Qed.
+
+  (** [MUT-3] Afterwards the view shows the value that was set, as the only one, *)
+  Theorem set_attribute_shown X a t u n v : wf X -> accepts X a (UpdateAttributes t u) = true ->
+    In (n, Some v) (entries u) ->
+    exists d, attribute_writes allows (mutate D a (UpdateAttributes t u) X) t n
+      = [(d, Write t n v (time_ns a) (1 + greatest_stamp X))].
+  Proof.
+    intros W A I. destruct (update_sets D a X t u n v W (accepts_possible X a _ W A) I) as (d & G & One).
+    exists d. set (Y := mutate D a (UpdateAttributes t u) X) in *.
+    set (c := (d, Write t n v (time_ns a) (1 + greatest_stamp X)) : Claim).
+    assert (Ic : In c (attribute_writes allows Y t n)).
+    { apply attribute_writes_in. split; [| simpl; now rewrite !eqb_refl]. apply filter_In. split.
+      - apply filter_In. split; [now apply in_records |]. now apply element_stays.
+      - cbn [accepts] in A. rewrite !andb_true_iff in A. destruct A as (_ & A). rewrite forallb_forall in A.
+        now apply A in I. }
+    assert (Only : forall c', In c' (attribute_writes allows Y t n) -> c' = c).
+    { intros c' I'. apply attribute_writes_in in I' as [I' Wr]. apply filter_In in I' as [I' _].
+      apply filter_In in I' as [I' _]. pose proof I' as G'. apply in_records in G'.
+      apply (same_dot Y); auto; [now apply in_records | now apply (One (fst c') (snd c'))]. }
+    assert (N : NoDup (attribute_writes allows Y t n)).
+    { eapply Permutation_NoDup; [apply descending_permutation |]. repeat apply NoDup_filter. apply records_nodup. }
+    destruct (attribute_writes allows Y t n) as [| x [| y l]]; [easy | |].
+    - now rewrite (Only x) by now left.
+    - exfalso. inversion N as [| ? ? F _]; subst. apply F. left.
+      rewrite (Only x), (Only y); simpl; auto.
+  Qed.
+
+  (** and nothing for what was unset. *)
+  Theorem unset_attribute_gone X a t u n : wf X -> accepts X a (UpdateAttributes t u) = true ->
+    In (n, None) (entries u) -> attribute_writes allows (mutate D a (UpdateAttributes t u) X) t n = [].
+  Proof.
+    intros W A I. set (Y := mutate D a (UpdateAttributes t u) X).
+    destruct (attribute_writes allows Y t n) as [| c l] eqn:E; auto. exfalso.
+    assert (J : In c (attribute_writes allows Y t n)) by (rewrite E; now left).
+    apply attribute_writes_in in J as [J Wr]. apply filter_In in J as [J _]. apply filter_In in J as [J _].
+    apply in_records in J. pose proof (update_unsets D a X t u n W (accepts_possible X a _ W A) I _ _ J). congruence.
+  Qed.
+
   (** Mutations 1 to 3. *)
   Definition adds (m : Mutation) : Prop :=
     match m with AddVertex _ _ _ _ _ _ _ _ | AddEdge _ _ | UpdateAttributes _ _ => True | _ => False end.
