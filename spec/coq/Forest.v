@@ -301,7 +301,8 @@ Lemma forest_permutation l l' : Permutation l l' -> forest l -> forest l'.
 Proof.
   intros P F. apply forest_iff in F as [U A]. apply forest_iff; split.
   - unfold unique_parents. eapply Permutation_NoDup; [apply Permutation_map; eauto | auto].
-  - intros v H. apply (A v). eapply above_incl; eauto. intros c Hin. eapply Permutation_in; [apply Permutation_sym|]; eauto.
+  - intros v H. apply (A v). eapply above_incl; eauto. intros c Hin.
+    eapply Permutation_in; [apply Permutation_sym|]; eauto.
 Qed.
 
 (** With unique parents a cycle of any direction is a cycle upwards. *)

@@ -14,7 +14,8 @@ Section Sequential.
   (** ** The conditions *)
 
   (** [MUT-3.2] as far as the view can tell: limits (LIMIT-1 to LIMIT-6) only refuse more. *)
-  Definition attributes_ok (l : Attributes) : bool := forallb (fun e => allows (fst e) (value_type (snd e))) (entries l).
+  Definition attributes_ok (l : Attributes) : bool :=
+    forallb (fun e => allows (fst e) (value_type (snd e))) (entries l).
 
   Definition has_key (k : Key) (c : Claim) : bool :=
     eqb (from c) (key_from k) && eqb (to c) (key_to k) && eqb (label c) (key_label k).
@@ -320,7 +321,8 @@ Section Sequential.
       destruct m as [ty nm ext ats other lb outgoing lats | k0 ats | tg up | k0 | old new ats | vx];
         cbn [new_key accepts] in K, A; try discriminate; injection K as <-.
       - rewrite !andb_true_iff in A. destruct A as ((_ & O) & _). apply S in O.
-        assert (L : in_graph (mutate D a (AddVertex ty nm ext ats other lb outgoing lats) X) (next_dot X (me a)) = true).
+        assert (L : in_graph (mutate D a (AddVertex ty nm ext ats other lb outgoing lats) X)
+          (next_dot X (me a)) = true).
         { unfold in_graph, mutate.
           rewrite (made_lives X _ W P _ (Vertex ty nm ext (1 + greatest_stamp X))) by now left. apply orb_true_r. }
         destruct outgoing; now split.
@@ -668,7 +670,8 @@ Section Sequential.
       assert (R : forall k, In (fst c) (register D X k) -> competes D k (snd c) = true).
       { intros k (x & G & F)%register_in. apply visible_in in V as (G' & _). congruence. }
       pose proof A as A'. pose proof V as V'. apply visible_in in V' as (G & (s & E) & _ & F & T).
-      destruct m as [ty nm ext ats other lb outgoing lats | k0 ats | tg up | k0 | old0 new0 ats | vx]; try easy; cbn [plan killed make_records accepts] in K, A'.
+      destruct m as [ty nm ext ats other lb outgoing lats | k0 ats | tg up | k0 | old0 new0 ats | vx]; try easy;
+        cbn [plan killed make_records accepts] in K, A'.
       - apply R in K. rewrite !andb_true_iff in A'. destruct A' as (_ & A').
         pose proof (next_dot_new X a W) as N. fold (next_dot X (me a)) in K.
         rewrite E in K. destruct outgoing; simpl in K; apply andb_prop in K as [L K]; apply eqb_eq in L;
@@ -714,7 +717,9 @@ Section Sequential.
       intros G I. enough (H : up from to (kinematic X) (from c) ROOT).
       { eapply up_incl; [| exact H]. intros c'. now apply grown_kinematic. }
       apply kinematic_in in I as (I & R & T). destruct (visible_Y c I) as [[E N] | (J & _)].
-      - apply tree_reaches_root. pose proof A as A'. destruct m as [ty nm ext ats other lb outgoing lats | k0 ats | tg up | k0 | old0 new0 ats | vx]; try easy; cbn [new_key accepts] in N, A'.
+      - apply tree_reaches_root. pose proof A as A'.
+        destruct m as [ty nm ext ats other lb outgoing lats | k0 ats | tg up | k0 | old0 new0 ats | vx]; try easy;
+        cbn [new_key accepts] in N, A'.
         + rewrite !andb_true_iff in A'. destruct A' as (_ & A'). destruct outgoing; injection N as Nf Nt Nl.
           * rewrite Nl, R in A'. discriminate.
           * rewrite Nl, R in A'. now rewrite <- Nf.
@@ -732,7 +737,8 @@ Section Sequential.
       assert (K : exists k, new_key X a m = Some k) by (destruct m; try easy; eexists; reflexivity).
       destruct K as (k & K). pose proof (new_edge_visible X a m k W A K) as S. apply (in_map ends) in S.
       unfold ends at 1, from, to in S. simpl in S. pose proof A as A'.
-      destruct m as [ty nm ext ats other lb outgoing lats | k0 ats | tg up | k0 | old0 new0 ats | vx]; try easy. cbn [new_vertex new_key accepts] in *. injection N as <- _.
+      destruct m as [ty nm ext ats other lb outgoing lats | k0 ats | tg up | k0 | old0 new0 ats | vx]; try easy.
+      cbn [new_vertex new_key accepts] in *. injection N as <- _.
       rewrite !andb_true_iff in A'. destruct A' as ((_ & O) & _). apply vertices_in, old in O.
       destruct outgoing; injection K as <-; simpl in S.
       - eapply rst_trans; [apply rst_step; exact S | exact O].
