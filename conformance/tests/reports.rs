@@ -5,7 +5,7 @@ use dsr_conformance::corpus;
 use dsr_conformance::log::{CaseLine, Footer, Header, Log};
 use dsr_conformance::protocol::{Implementation, Unique};
 use dsr_conformance::render::{
-    Named, badge, diagram, explain, failure, graph, html, junit, markdown, mermaid,
+    Named, badge, diagram, explain, failure, graph, html, junit, markdown, matrix, mermaid,
 };
 use dsr_conformance::report::{Outcome, Verdict};
 
@@ -177,4 +177,26 @@ fn law_a_view_that_is_no_tree_is_drawn_to_an_end() {
         drawn.contains("a again") && drawn.contains("z: not there") && drawn.contains("q: not there"),
         "{drawn}"
     );
+}
+
+/// `[spec: CONF-16]`
+#[test]
+fn law_each_bold_cell_of_a_matrix_leads_to_a_failing_case_that_is_shown() {
+    let cases = corpus::cases().unwrap();
+    let mut logs = two();
+    logs[1].log.cases[0].broken = Some("INV-3".into());
+    let page = matrix(&logs, &cases);
+    let outside: String = page.split("```").step_by(2).collect();
+    assert!(!page.contains(['\u{1b}', '\u{202e}', '\0']));
+    let links: Vec<&str> = outside
+        .match_indices("](#")
+        .filter_map(|(at, link)| outside[at + link.len()..].split(')').next())
+        .collect();
+    assert!(links.len() >= 5, "{page}");
+    for link in links {
+        assert!(outside.contains(&format!("<a id=\"{link}\"></a>")), "{link}");
+    }
+    let row = |name: &str| outside.lines().find(|line| line.contains(name)).unwrap().to_owned();
+    assert!(row("(INV-3)").contains("broken in 1 case"), "{page}");
+    assert!(row("(INV-2)").ends_with("| kept | kept |"), "{page}");
 }

@@ -16,7 +16,8 @@
 //! that there is: the whole graph, as the server of a joiner sends it.
 //!
 //! **Reading** takes what the registers hold. A replica whose process would end, because an assertion fails, replies an
-//! error from then on. `restart` is not announced: a replica has no storage.
+//! error from then on. `restart` is not announced: a replica has no storage. Nor is `dictionary`: labels and types are as they
+//! come.
 
 mod intern;
 
@@ -206,7 +207,7 @@ impl<E: Edition> Replica for PublishedGraph<E> {
     type Error = PublishedError;
     type Update = Sent;
     const FEATURES: &'static [Feature] =
-        &[Feature::Dictionary, Feature::ErrorKinds, Feature::Grouping, Feature::Resynchronisation];
+        &[Feature::ErrorKinds, Feature::Grouping, Feature::Resynchronisation];
 
     fn implementation() -> Implementation {
         Implementation {
