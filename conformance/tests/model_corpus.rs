@@ -41,7 +41,19 @@ fn conform_the_models_cases_are_those_of_its_histories() {
     let mut ids = BTreeSet::new();
     for (group, generated) in &groups {
         let Generated { histories, different, alike, kept, files } = generated;
-        let cases: Vec<_> = files.iter().map(|f| (f.family.clone(), f.cases.len(), f.cases.iter().filter(|c| c.provenance.rule.as_deref() == Some("CONF-20b")).count(), f.cases.iter().filter(|c| c.dictionary.is_some()).count(), f.cases.iter().map(|c| c.steps.len()).sum::<usize>(), write(f).unwrap().len())).collect();
+        let cases: Vec<_> = files
+            .iter()
+            .map(|f| {
+                (
+                    f.family.clone(),
+                    f.cases.len(),
+                    f.cases.iter().filter(|c| c.provenance.rule.as_deref() == Some("CONF-20b")).count(),
+                    f.cases.iter().filter(|c| c.dictionary.is_some()).count(),
+                    f.cases.iter().map(|c| c.steps.len()).sum::<usize>(),
+                    write(f).unwrap().len(),
+                )
+            })
+            .collect();
         println!("{:<40} {histories:>7} {different:>7} {alike:>5} {kept:>4} {cases:?}", group.topic());
         for file in files {
             for case in &file.cases {

@@ -102,8 +102,14 @@ impl Writer<'_> {
         let told = |(at, made): (usize, &super::script::Made)| {
             let others = members(made.had).filter(|&other| self.script.made[other].author != made.author);
             let others: Vec<String> = others.map(|other| format!("m{}", other + 1)).collect();
-            let after = if others.is_empty() { String::new() } else { format!(" after {}", others.join(" and ")) };
-            format!("m{} by {}: {}{after}", at + 1, builder.name(1 + made.author), made.mutation.kind().name())
+            let after =
+                if others.is_empty() { String::new() } else { format!(" after {}", others.join(" and ")) };
+            format!(
+                "m{} by {}: {}{after}",
+                at + 1,
+                builder.name(1 + made.author),
+                made.mutation.kind().name()
+            )
         };
         self.script.made.iter().enumerate().map(told).collect::<Vec<_>>().join("; ")
     }
@@ -139,8 +145,10 @@ fn json(step: &Step) -> String {
     serde_json::to_string(step).unwrap_or_else(|error| error.to_string())
 }
 
-const UNIVERSAL: &str = "Whoever has received the same shows the same sound graph, whatever order it came in.";
-const RESOLUTION: &str = "What is shown follows from what has been received, also where causes are still missing.";
+const UNIVERSAL: &str =
+    "Whoever has received the same shows the same sound graph, whatever order it came in.";
+const RESOLUTION: &str =
+    "What is shown follows from what has been received, also where causes are still missing.";
 
 /// The row of two kinds in the chapter on conflicts.
 const fn row(left: MutationKind, right: MutationKind) -> usize {

@@ -4,7 +4,7 @@ use super::script::Set;
 
 /// Chains of sets, each set one delta more than the one before it, that together have every set of `count` deltas
 /// once: as few as there can be. The longest first. (De Bruijn, Tengbergen and Kruyswijk 1951.)
-pub fn chains(count: usize) -> Vec<Vec<Set>> {
+pub(super) fn chains(count: usize) -> Vec<Vec<Set>> {
     let mut chains: Vec<Vec<Set>> = vec![vec![0]];
     for next in 0..count {
         let with = |set: &Set| set | 1 << next;

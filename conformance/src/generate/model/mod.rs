@@ -50,7 +50,8 @@ pub enum Rule {
 pub fn model(group: &Group) -> Result<Generated, CannotWrite> {
     let semantics = Arc::new(group.semantics()?);
     let mut histories = Histories::new(semantics.clone(), group.bound, true);
-    let nodes = all(&mut histories).map_err(|fault| CannotWrite::History { what: fault.breach().detail.clone() })?;
+    let nodes =
+        all(&mut histories).map_err(|fault| CannotWrite::History { what: fault.breach().detail.clone() })?;
     let (mut scripts, mut sights) = (Scripts::new(semantics.clone()), Sights::default());
     let (mut known, mut shapes, mut candidates) = (BTreeSet::new(), BTreeSet::new(), Vec::new());
     let mut different = 0;

@@ -10,24 +10,24 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The semantics that histories are to tell apart: the core, the core with the authors' identities in the opposite
 /// order, which decides ties the other way, and the cores broken on purpose.
 #[derive(Debug)]
-pub struct Several {
+pub(super) struct Several {
     broken: Vec<CoreAdapter<Flawed>>,
 }
 
 /// Which semantics differ in what they make of a history: pairs by their numbers.
-pub type Separated = BTreeSet<(usize, usize)>;
+pub(super) type Separated = BTreeSet<(usize, usize)>;
 
 /// What is shown at each expectation, until something is refused.
 type Outcome = Vec<Option<View>>;
 
 impl Several {
     /// All of them.
-    pub fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self { broken: broken_cores().map(|alarm| CoreAdapter::of(Flawed(alarm))).collect() }
     }
 
     /// Which of them these steps tell apart. The replicas are a scene's author, `authors` authors, and observers.
-    pub fn separated(
+    pub(super) fn separated(
         &mut self,
         replicas: &[ReplicaName],
         authors: usize,

@@ -23,7 +23,9 @@ impl Group {
     pub fn all() -> Vec<Self> {
         let kinds = MutationKind::ALL;
         let twice = Bound { replicas: 2, mutations: 2 };
-        let pair = |left: usize, right: usize| if left == right { vec![kinds[left]] } else { vec![kinds[left], kinds[right]] };
+        let pair = |left: usize, right: usize| {
+            if left == right { vec![kinds[left]] } else { vec![kinds[left], kinds[right]] }
+        };
         let pairs = (0..kinds.len()).flat_map(|left| (left..kinds.len()).map(move |right| (left, right)));
         let pairs = pairs.map(|(left, right)| Self { kinds: pair(left, right), bound: twice });
         pairs.chain([Self { kinds: kinds.into(), bound: Bound { replicas: 3, mutations: 1 } }]).collect()
@@ -64,28 +66,32 @@ impl Group {
         let scene = Scene::new()?;
         let adds = self.kinds.contains(&MutationKind::AddVertex) && !self.is_of_three();
         let focus = if adds { vec![scene.vertices[1]] } else { scene.vertices.to_vec() };
-        Ok(Checked { dictionary: dictionary(), initial: scene.state, alphabet: Alphabet::of(&self.kinds, focus) })
+        Ok(Checked {
+            dictionary: dictionary(),
+            initial: scene.state,
+            alphabet: Alphabet::of(&self.kinds, focus),
+        })
     }
 }
 
 /// The scene: vertices `a` and `b` below the root, `b` is `in` `a`, and has the attribute `level`.
 #[derive(Clone, Debug)]
-pub struct Scene {
+pub(super) struct Scene {
     /// What replicas start from.
-    pub state: State,
+    pub(super) state: State,
     /// The mutations of its author, the replica of the least identity.
-    pub mutations: Vec<Mutation>,
+    pub(super) mutations: Vec<Mutation>,
     vertices: [VertexId; 2],
 }
 
 /// The labels of the alphabet, one of them functional.
-pub fn dictionary() -> Dictionary {
+pub(super) fn dictionary() -> Dictionary {
     Dictionary::open().with_functional(FUNCTIONAL)
 }
 
 impl Scene {
     /// The scene.
-    pub fn new() -> Result<Self, CannotWrite> {
+    pub(super) fn new() -> Result<Self, CannotWrite> {
         let vertex = |sequence| VertexId(dsr_core::Dot::new(ReplicaId::SCENE, sequence));
         let (a, b) = (vertex(1), vertex(3));
         let add = |name: &str, attributes: AttributeMap| Mutation::AddVertex {

@@ -9,74 +9,74 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// A set of the mutations of a script, by bit.
-pub type Set = u32;
+pub(super) type Set = u32;
 
 /// Mutations in an order in which they can be made.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Script {
+pub(super) struct Script {
     /// The mutations.
-    pub made: Vec<Made>,
+    pub(super) made: Vec<Made>,
 }
 
 /// A mutation and what its author had received.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Made {
+pub(super) struct Made {
     /// The author, from 0.
-    pub author: usize,
+    pub(super) author: usize,
     /// What it does.
-    pub mutation: Mutation,
+    pub(super) mutation: Mutation,
     /// Which of the mutations before its author had, its own included: the fewest that let it make this delta.
-    pub had: Set,
+    pub(super) had: Set,
     /// What it broadcasts.
-    pub delta: Arc<Delta>,
+    pub(super) delta: Arc<Delta>,
     /// The same, in the tables of the histories.
-    pub id: DeltaId,
+    pub(super) id: DeltaId,
 }
 
 impl Script {
     /// All of its mutations.
-    pub fn whole(&self) -> Set {
+    pub(super) fn whole(&self) -> Set {
         (1 << self.made.len()) - 1
     }
 
     /// The kinds of its mutations, in order.
-    pub fn kinds(&self) -> Vec<MutationKind> {
+    pub(super) fn kinds(&self) -> Vec<MutationKind> {
         let mut kinds: Vec<MutationKind> = self.made.iter().map(|made| made.mutation.kind()).collect();
         kinds.sort_unstable();
         kinds
     }
 
     /// Whether a set has with each mutation those that its author had.
-    pub fn is_closed(&self, set: Set) -> bool {
+    pub(super) fn is_closed(&self, set: Set) -> bool {
         members(set).all(|at| self.made[at].had & !set == 0)
     }
 
     /// Whether neither author had the other's mutation.
-    pub fn is_concurrent(&self, left: usize, right: usize) -> bool {
+    pub(super) fn is_concurrent(&self, left: usize, right: usize) -> bool {
         self.made[left].had >> right & 1 == 0 && self.made[right].had >> left & 1 == 0
     }
 }
 
 /// The members of a set, in order.
-pub fn members(set: Set) -> impl Iterator<Item = usize> {
+pub(super) fn members(set: Set) -> impl Iterator<Item = usize> {
     (0..Set::BITS as usize).filter(move |at| set >> at & 1 == 1)
 }
 
 /// Writes scripts of histories.
 #[derive(Debug)]
-pub struct Scripts {
+pub(super) struct Scripts {
     semantics: Arc<Checked>,
     steps: BTreeMap<(StateId, usize), Vec<(Act, Delta)>>,
 }
 
 impl Scripts {
     /// Of this semantics.
-    pub fn new(semantics: Arc<Checked>) -> Self {
+    pub(super) fn new(semantics: Arc<Checked>) -> Self {
         Self { semantics, steps: BTreeMap::new() }
     }
 
     /// The script of a history; `None` if it cannot be made, which would be a fault of the checker.
-    pub fn of(&mut self, histories: &mut Histories<Checked>, history: &History) -> Option<Script> {
+    pub(super) fn of(&mut self, histories: &mut Histories<Checked>, history: &History) -> Option<Script> {
         let mut made = Vec::new();
         self.go_on(histories, history, &mut made).then_some(Script { made })
     }
@@ -88,7 +88,8 @@ impl Scripts {
         }
         for (author, deltas) in history.deltas.iter().enumerate() {
             let own = made.iter().enumerate().filter(|(_, made)| made.author == author);
-            let (count, had) = own.fold((0, 0), |(count, had), (at, made)| (count + 1, had | made.had | 1 << at));
+            let (count, had) =
+                own.fold((0, 0), |(count, had), (at, made)| (count + 1, had | made.had | 1 << at));
             let Some(&id) = deltas.get(count).filter(|&&delta| delta != NONE) else { continue };
             let mut sets: Vec<Set> = (0..1 << made.len()).filter(|set| set & had == had).collect();
             sets.sort_by_key(|set| set.count_ones());
@@ -124,7 +125,7 @@ impl Scripts {
 }
 
 /// The state of who has received a set.
-pub fn state(histories: &mut Histories<Checked>, made: &[Made], set: Set) -> StateId {
+pub(super) fn state(histories: &mut Histories<Checked>, made: &[Made], set: Set) -> StateId {
     let start = histories.initial();
     members(set).fold(start, |state, at| histories.join(state, made[at].id))
 }

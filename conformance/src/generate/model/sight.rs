@@ -1,7 +1,7 @@
 //! What is seen of a delivered set. `[spec: CONF-20]`
 
 use super::script::{Script, Set, members, state};
-use dsr_core::{Dot, EdgeId, Record, Repair, ReplicaId, State, View, VertexId, view};
+use dsr_core::{Dot, EdgeId, Record, Repair, ReplicaId, State, VertexId, View, view};
 use dsr_model::checked::Checked;
 use dsr_model::histories::Histories;
 use dsr_model::tables::StateId;
@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 /// What became of a record that somebody has made.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub enum Fate {
+pub(super) enum Fate {
     /// It is shown.
     Shown,
     /// It is there, and something else is shown, or it waits for what it belongs to.
@@ -21,25 +21,25 @@ pub enum Fate {
 
 /// What a state shows, as far as histories are told apart by it.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Seen {
+pub(super) struct Seen {
     /// The kinds of its repairs, in order.
-    pub repairs: Vec<&'static str>,
+    pub(super) repairs: Vec<&'static str>,
     /// Whether one attribute has two live writes.
-    pub has_two_writes: bool,
+    pub(super) has_two_writes: bool,
     /// What became of each record that is not the scene's.
     fates: BTreeMap<Dot, Fate>,
 }
 
 /// Two histories with equal signatures are alike; see [`Sights::signature`].
-pub type Signature = (Vec<(usize, Vec<(u8, Fate)>)>, Vec<Vec<&'static str>>);
+pub(super) type Signature = (Vec<(usize, Vec<(u8, Fate)>)>, Vec<Vec<&'static str>>);
 
 /// What states show, remembered.
 #[derive(Debug, Default)]
-pub struct Sights(BTreeMap<StateId, Arc<Seen>>);
+pub(super) struct Sights(BTreeMap<StateId, Arc<Seen>>);
 
 impl Sights {
     /// What is seen of a delivered set.
-    pub fn of(
+    pub(super) fn of(
         &mut self,
         semantics: &Checked,
         histories: &mut Histories<Checked>,
@@ -56,7 +56,7 @@ impl Sights {
 
     /// What a history is told by: the kinds of its mutations, each with what became of its records in the end, and
     /// the repairs of the delivered sets `sets`, in no order.
-    pub fn signature(
+    pub(super) fn signature(
         &mut self,
         semantics: &Checked,
         histories: &mut Histories<Checked>,
@@ -82,7 +82,7 @@ impl Sights {
 
 /// Whether nothing comes of all mutations together that does not come of two of them: no other repairs, and no other
 /// fate of a record.
-pub fn is_sum_of_pairs(
+pub(super) fn is_sum_of_pairs(
     semantics: &Checked,
     histories: &mut Histories<Checked>,
     sights: &mut Sights,
@@ -105,7 +105,7 @@ pub fn is_sum_of_pairs(
 
 impl Seen {
     /// What became of a record.
-    pub fn fate(&self, dot: Dot) -> Fate {
+    pub(super) fn fate(&self, dot: Dot) -> Fate {
         self.fates.get(&dot).copied().unwrap_or(Fate::Dead)
     }
 }
@@ -140,7 +140,7 @@ fn seen(view: &View<'_>) -> Seen {
 
 /// Whether delivered sets, by their number, are such that nothing in them is decided by a rule that could be another.
 /// `[spec: CONF-20]`
-pub fn undisputed(
+pub(super) fn undisputed(
     semantics: &Checked,
     histories: &mut Histories<Checked>,
     sights: &mut Sights,
@@ -177,7 +177,8 @@ fn is_alone(script: &Script, set: Set, seen: &Seen) -> bool {
         dots.filter(killed).count() > 0 && !(left.is_empty() && right.is_empty())
     };
     let competes = members(set).any(|left| {
-        members(set).any(|right| left < right && script.is_concurrent(left, right) && replaces_too(left, right))
+        members(set)
+            .any(|right| left < right && script.is_concurrent(left, right) && replaces_too(left, right))
     });
     seen.repairs.is_empty() && !seen.has_two_writes && !dies_unseen && !competes
 }

@@ -8,27 +8,27 @@ use dsr_core::{Dictionary, Mutation, NewVertex, ReplicaId};
 
 /// A builder in which the authors have done what a script says, and who has received what.
 #[derive(Debug)]
-struct Stage<'s> {
+struct Stage {
     builder: Builder,
-    script: &'s Script,
     /// By replica: the scene's author, the authors, the observers.
     received: Vec<Set>,
     authors: usize,
 }
 
-impl<'s> Stage<'s> {
-    fn new(script: &'s Script, observers: usize, dictionary: Dictionary) -> Result<Self, CannotWrite> {
+impl Stage {
+    fn new(script: &Script, observers: usize, dictionary: Dictionary) -> Result<Self, CannotWrite> {
         let authors = 1 + script.made.iter().map(|made| made.author).max().unwrap_or(0);
         let replicas = 1 + authors + observers;
         let agent = |at: usize| ReplicaId::agent(u32::try_from(at).unwrap_or(u32::MAX));
         let ids: Vec<ReplicaId> = [ReplicaId::SCENE].into_iter().chain((1..replicas).map(agent)).collect();
         let mut stage =
-            Self { builder: Builder::new(&ids, dictionary), script, received: vec![0; replicas], authors };
+            Self { builder: Builder::new(&ids, dictionary), received: vec![0; replicas], authors };
         stage.builder.mutate(0, &Scene::new()?.mutations, "s")?;
         (1..replicas).try_for_each(|replica| stage.builder.deliver(replica, "s"))?;
         for (at, made) in script.made.iter().enumerate() {
             let replica = 1 + made.author;
-            members(made.had & !stage.received[replica]).try_for_each(|other| stage.deliver(replica, other))?;
+            members(made.had & !stage.received[replica])
+                .try_for_each(|other| stage.deliver(replica, other))?;
             stage.builder.mutate(replica, &[renamed(&made.mutation, at)], &name(at))?;
             stage.received[replica] |= 1 << at;
         }
@@ -79,7 +79,7 @@ fn renamed(mutation: &Mutation, at: usize) -> Mutation {
 }
 
 /// The case of every delivered set that is wanted: each is read where a replica that makes nothing has received it.
-pub fn exact(
+pub(super) fn exact(
     script: &Script,
     dictionary: Dictionary,
     is_wanted: impl Fn(Set) -> bool,
@@ -95,7 +95,7 @@ pub fn exact(
 
 /// The case of what every sound implementation does: everybody ends equal, who has received everything, in whatever
 /// order and however often; `shows` what the core does then, if nothing in it is disputed.
-pub fn equal(script: &Script, dictionary: Dictionary, shows: bool) -> Result<Builder, CannotWrite> {
+pub(super) fn equal(script: &Script, dictionary: Dictionary, shows: bool) -> Result<Builder, CannotWrite> {
     let mut stage = Stage::new(script, 1, dictionary)?;
     let (authors, whole) = (stage.authors, script.whole());
     members(whole).try_for_each(|at| stage.deliver(authors + 1, at))?;
