@@ -2,12 +2,14 @@
 
 use super::scene::{Group, dictionary};
 use super::script::{Script, Set, members};
+use super::sight::Seen;
 use super::{Rule, write};
 use crate::case::{Case, Level, Origin, Provenance, Step};
 use crate::generate::{Builder, CannotWrite};
 use crate::protocol::{Feature, Profile};
 use dsr_core::{Dictionary, MutationKind};
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 /// What is known of a history that is kept.
 #[derive(Debug)]
@@ -17,52 +19,69 @@ pub(super) struct Writer<'w> {
     pub(super) rule: Rule,
     /// By set, whether nothing in it is disputed.
     pub(super) undisputed: Vec<bool>,
-    /// The kinds of repair of all its sets.
-    pub(super) repairs: BTreeSet<&'static str>,
+    /// By set, what is seen.
+    pub(super) seen: Vec<Arc<Seen>>,
+    /// Whether no history before it looks the same where causes are missing.
+    pub(super) is_new_early: bool,
 }
 
 impl Writer<'_> {
-    /// What every sound implementation does, unless an author has decided on something disputed; and what this
-    /// specification makes of all other sets.
-    pub(super) fn cases(&self) -> Result<[Option<Case>; 2], CannotWrite> {
-        let probe = write::exact(self.script, dictionary(), |_| true)?;
-        let open = write::exact(self.script, Dictionary::open(), |_| true);
-        // Who knows no dictionaries is asked wherever none matters.
-        let needed = open.is_err() || open.is_ok_and(|open| open.steps != probe.steps);
-        let dictionary = || if needed { dictionary() } else { Dictionary::open() };
+    /// The cases: what every sound implementation does, unless an author has decided on something disputed; what this
+    /// specification makes of sets in which something is; and what it shows where causes are missing.
+    pub(super) fn cases(&self) -> Result<[Option<Case>; 3], CannotWrite> {
+        let made = &self.script.made;
         let is_undisputed = |set: Set| self.undisputed.get(set as usize).copied().unwrap_or(false);
-        let is_common = self.script.made.iter().all(|made| is_undisputed(made.had));
-        let slug = self.slug(&probe);
-        let case = |family: &str, builder: Builder, why: &str, spec: Vec<String>| Case {
-            id: format!("{family}/{}/{slug}", self.group.topic()),
-            title: self.title(&builder),
-            why: why.into(),
-            spec,
-            level: Level::Must,
-            profile: Profile::Observe,
-            requires: needed.then_some(Feature::Dictionary).into_iter().collect(),
-            replicas: builder.names(),
-            dictionary: needed.then(&dictionary),
-            steps: builder.steps,
-            provenance: self.provenance(),
-            choice: None,
-            since: None,
-        };
-        let universal = if is_common {
-            let builder = write::equal(self.script, dictionary(), is_undisputed(self.script.whole()))?;
-            Some(case("universal", builder, UNIVERSAL, self.universal_clauses()))
+        let is_founded = made.iter().all(|made| self.script.is_closed(made.had));
+        let universal = if made.iter().all(|made| is_undisputed(made.had)) {
+            let shows = is_undisputed(self.script.whole());
+            self.case(Part::Universal, |dictionary| write::equal(self.script, dictionary, shows), |_| false)?
         } else {
             None
         };
         // An undisputed part is a smaller history, and one that is alike is kept.
-        let is_left = |set: Set| !is_undisputed(set);
-        let resolution = if (1..=self.script.whole()).any(is_left) {
-            let builder = write::exact(self.script, dictionary(), is_left)?;
-            Some(case("resolution", builder, RESOLUTION, self.resolution_clauses()))
-        } else {
-            None
+        let is_early = |set: Set| !is_undisputed(set) && !(is_founded && self.script.is_closed(set));
+        let is_late = |set: Set| !is_undisputed(set) && is_founded && self.script.is_closed(set);
+        let exact = |is_wanted: &dyn Fn(Set) -> bool, part: Part| {
+            if self.sets().any(is_wanted) {
+                let write = |dictionary| write::exact(self.script, dictionary, is_wanted);
+                self.case(part, write, is_wanted)
+            } else {
+                Ok(None)
+            }
         };
-        Ok([universal, resolution])
+        let resolution = exact(&is_late, Part::Resolution)?;
+        let early = if self.is_new_early { exact(&is_early, Part::Early)? } else { None };
+        Ok([universal, resolution, early])
+    }
+
+    fn sets(&self) -> impl Iterator<Item = Set> + use<> {
+        1..=self.script.whole()
+    }
+
+    fn case(
+        &self,
+        part: Part,
+        write: impl Fn(Dictionary) -> Result<Builder, CannotWrite>,
+        is_read: impl Fn(Set) -> bool,
+    ) -> Result<Option<Case>, CannotWrite> {
+        let (with, without) = (write(dictionary())?, write(Dictionary::open()));
+        // Who knows no dictionaries is asked wherever none matters.
+        let needed = without.map_or(true, |without| without.steps != with.steps);
+        Ok(Some(Case {
+            id: format!("{}/{}/{}", part.family(), part.topic(self.group), self.slug(&with)),
+            title: self.title(&with),
+            why: part.why().into(),
+            spec: self.clauses(part, is_read),
+            level: Level::Must,
+            profile: Profile::Observe,
+            requires: needed.then_some(Feature::Dictionary).into_iter().collect(),
+            replicas: with.names(),
+            dictionary: needed.then(dictionary),
+            steps: with.steps,
+            provenance: self.provenance(),
+            choice: None,
+            since: None,
+        }))
     }
 
     fn provenance(&self) -> Provenance {
@@ -114,41 +133,78 @@ impl Writer<'_> {
         self.script.made.iter().enumerate().map(told).collect::<Vec<_>>().join("; ")
     }
 
-    fn universal_clauses(&self) -> Vec<String> {
-        let kinds: BTreeSet<MutationKind> = self.script.kinds().into_iter().collect();
-        let mutations = kinds.into_iter().map(|kind| format!("MUT-{}", kind as usize + 1));
-        ["JOIN-3".to_owned(), "VIEW-1".into()].into_iter().chain(mutations).collect()
-    }
-
-    fn resolution_clauses(&self) -> Vec<String> {
+    /// The mutations of what everybody does; the rows of the concurrent pairs, and the rules by which there are repairs.
+    fn clauses(&self, part: Part, is_read: impl Fn(Set) -> bool) -> Vec<String> {
         let made = &self.script.made;
+        if matches!(part, Part::Universal) {
+            let kinds: BTreeSet<MutationKind> = self.script.kinds().into_iter().collect();
+            let mutations = kinds.into_iter().map(|kind| format!("MUT-{}", kind as usize + 1));
+            return ["JOIN-3".to_owned(), "VIEW-1".into()].into_iter().chain(mutations).collect();
+        }
+        let mut clauses = Vec::new();
+        if matches!(part, Part::Early) {
+            clauses.push("CLOSE-4".to_owned());
+        }
         let mut rows = BTreeSet::new();
         for left in 0..made.len() {
             for right in (0..left).filter(|&right| self.script.is_concurrent(left, right)) {
                 rows.insert(row(made[left].mutation.kind(), made[right].mutation.kind()));
             }
         }
-        let mut clauses: Vec<String> = rows.into_iter().map(|row| format!("CONFLICT-{row}")).collect();
-        let rules: BTreeSet<&str> = self.repairs.iter().map(|repair| clause_of(repair)).collect();
+        clauses.extend(rows.into_iter().map(|row| format!("CONFLICT-{row}")));
+        let repairs =
+            self.sets().filter(|&set| is_read(set)).flat_map(|set| &self.seen[set as usize].repairs);
+        let rules: BTreeSet<&str> = repairs.map(|repair| clause_of(repair)).collect();
         clauses.extend(rules.into_iter().map(String::from));
-        if (1..=self.script.whole()).any(|set| !self.script.is_closed(set)) {
-            clauses.push("CLOSE-4".into());
-        }
-        if clauses.is_empty() {
-            clauses.push("VIEW-1".into());
-        }
         clauses
+    }
+}
+
+/// Which of its cases.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Part {
+    /// What every sound implementation does.
+    Universal,
+    /// Sets in which something is disputed.
+    Resolution,
+    /// Sets in which causes are missing.
+    Early,
+}
+
+impl Part {
+    /// All, in the order of [`Writer::cases`].
+    pub(super) const ALL: [Self; 3] = [Self::Universal, Self::Resolution, Self::Early];
+
+    pub(super) const fn family(self) -> &'static str {
+        match self {
+            Self::Universal => "universal",
+            Self::Resolution | Self::Early => "resolution",
+        }
+    }
+
+    pub(super) fn topic(self, group: &Group) -> String {
+        match self {
+            Self::Universal | Self::Resolution => group.topic(),
+            Self::Early => format!("{}-early", group.topic()),
+        }
+    }
+
+    const fn why(self) -> &'static str {
+        match self {
+            Self::Universal => {
+                "Whoever has received the same shows the same sound graph, whatever order it came in."
+            }
+            Self::Resolution => "Who decides otherwise shows another graph than everybody else.",
+            Self::Early => {
+                "Who holds back what has come before its causes shows less than what is known, and who does not                  must show it soundly."
+            }
+        }
     }
 }
 
 fn json(step: &Step) -> String {
     serde_json::to_string(step).unwrap_or_else(|error| error.to_string())
 }
-
-const UNIVERSAL: &str =
-    "Whoever has received the same shows the same sound graph, whatever order it came in.";
-const RESOLUTION: &str =
-    "What is shown follows from what has been received, also where causes are still missing.";
 
 /// The row of two kinds in the chapter on conflicts.
 const fn row(left: MutationKind, right: MutationKind) -> usize {

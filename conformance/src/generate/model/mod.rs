@@ -12,7 +12,8 @@ mod write;
 pub use scene::Group;
 
 use super::CannotWrite;
-use crate::case::{Case, CaseFile, FORMAT};
+use crate::case::{CaseFile, FORMAT};
+use case::{Part, Writer};
 use dsr_model::histories::Histories;
 use dsr_model::search::all;
 use outcome::{Separated, Several};
@@ -33,7 +34,7 @@ pub struct Generated {
     pub alike: usize,
     /// Histories kept.
     pub kept: usize,
-    /// The files `universal/….json` and `resolution/….json`, without those that would be empty.
+    /// The files `universal/….json`, `resolution/….json` and `resolution/…-early.json`, without those that would be empty.
     pub files: Vec<CaseFile>,
 }
 
@@ -71,22 +72,23 @@ pub fn model(group: &Group) -> Result<Generated, CannotWrite> {
         }
     }
     let mut thinning = Thinning::default();
-    let mut files = ["universal", "resolution"].map(|family| CaseFile {
+    let mut files = Part::ALL.map(|part| CaseFile {
         format: FORMAT,
-        family: family.into(),
-        topic: group.topic(),
+        family: part.family().into(),
+        topic: part.topic(group),
         cases: Vec::new(),
     });
-    let mut kept = 0;
+    let (mut kept, mut early) = (0, BTreeSet::new());
     for script in &candidates {
         let end = sights.signature(&semantics, &mut histories, script, [script.whole()].into_iter());
         let Some(rule) = thinning.keep(end, script)? else { continue };
         kept += 1;
         let undisputed = undisputed(&semantics, &mut histories, &mut sights, script);
-        let repairs: BTreeSet<&'static str> = (1..=script.whole())
-            .flat_map(|set| sights.of(&semantics, &mut histories, script, set).repairs.clone())
-            .collect();
-        let cases: [Option<Case>; 2] = case::Writer { group, script, rule, undisputed, repairs }.cases()?;
+        let sets = 0..=script.whole();
+        let seen = sets.map(|set| sights.of(&semantics, &mut histories, script, set)).collect();
+        let of_script = sights.early(&semantics, &mut histories, script);
+        let is_new_early = of_script.into_iter().fold(false, |is_new, seen| early.insert(seen) || is_new);
+        let cases = Writer { group, script, rule, undisputed, seen, is_new_early }.cases()?;
         for (file, case) in files.iter_mut().zip(cases) {
             file.cases.extend(case);
         }

@@ -1,7 +1,7 @@
 //! What is seen of a delivered set. `[spec: CONF-20]`
 
 use super::script::{Script, Set, members, state};
-use dsr_core::{Dot, EdgeId, Record, Repair, ReplicaId, State, VertexId, View, view};
+use dsr_core::{Dot, EdgeId, Record, Repair, ReplicaId, Run, State, VertexId, View, view};
 use dsr_model::checked::Checked;
 use dsr_model::histories::Histories;
 use dsr_model::tables::StateId;
@@ -30,8 +30,15 @@ pub(super) struct Seen {
     fates: BTreeMap<Dot, Fate>,
 }
 
+/// Mutations by their kind, each with the fates of its records, by their sort.
+type Fates = Vec<(usize, Vec<(u8, Fate)>)>;
+/// The kinds of repair of a set, in order.
+type Repairs = Vec<&'static str>;
+
 /// Two histories with equal signatures are alike; see [`Sights::signature`].
-pub(super) type Signature = (Vec<(usize, Vec<(u8, Fate)>)>, Vec<Vec<&'static str>>);
+pub(super) type Signature = (Fates, Vec<Repairs>);
+/// See [`Sights::early`].
+pub(super) type Early = (Vec<usize>, Fates, Repairs);
 
 /// What states show, remembered.
 #[derive(Debug, Default)]
@@ -63,20 +70,30 @@ impl Sights {
         script: &Script,
         sets: impl Iterator<Item = Set>,
     ) -> Signature {
-        let end = self.of(semantics, histories, script, script.whole());
-        let fates = |made: &super::script::Made| {
-            let records = made.delta.records();
-            let mut fates: Vec<(u8, Fate)> =
-                records.map(|(dot, record)| (sort_of(record), end.fate(dot))).collect();
-            fates.sort_unstable();
-            (made.mutation.kind() as usize, fates)
-        };
-        let mut mutations: Vec<_> = script.made.iter().map(fates).collect();
-        mutations.sort_unstable();
+        let end = self.of(semantics, histories, script, script.whole()).fates_of(script, script.whole());
         let mut repairs: Vec<_> =
             sets.map(|set| self.of(semantics, histories, script, set).repairs.clone()).collect();
         repairs.sort_unstable();
-        (mutations, repairs)
+        (end, repairs)
+    }
+
+    /// What is seen where causes are missing: of each such set the fates and the repairs, and the kinds of the causes.
+    pub(super) fn early(
+        &mut self,
+        semantics: &Checked,
+        histories: &mut Histories<Checked>,
+        script: &Script,
+    ) -> Vec<Early> {
+        let sets = (1..=script.whole()).filter(|&set| !script.is_closed(set));
+        let of = |set| {
+            let seen = self.of(semantics, histories, script, set);
+            let causes = members(set).fold(0, |causes, at| causes | script.made[at].had) & !set;
+            let mut missing: Vec<usize> =
+                members(causes).map(|at| script.made[at].mutation.kind() as usize).collect();
+            missing.sort_unstable();
+            (missing, seen.fates_of(script, set), seen.repairs.clone())
+        };
+        sets.map(of).collect()
     }
 }
 
@@ -104,6 +121,21 @@ pub(super) fn is_sum_of_pairs(
 }
 
 impl Seen {
+    /// What became of the records of each mutation of a set.
+    fn fates_of(&self, script: &Script, set: Set) -> Fates {
+        let of = |at: usize| {
+            let made = &script.made[at];
+            let records = made.delta.records();
+            let mut fates: Vec<(u8, Fate)> =
+                records.map(|(dot, record)| (sort_of(record), self.fate(dot))).collect();
+            fates.sort_unstable();
+            (made.mutation.kind() as usize, fates)
+        };
+        let mut fates: Fates = members(set).map(of).collect();
+        fates.sort_unstable();
+        fates
+    }
+
     /// What became of a record.
     pub(super) fn fate(&self, dot: Dot) -> Fate {
         self.fates.get(&dot).copied().unwrap_or(Fate::Dead)
@@ -146,6 +178,8 @@ pub(super) fn undisputed(
     sights: &mut Sights,
     script: &Script,
 ) -> Vec<bool> {
+    let undone: Vec<BTreeSet<Dot>> =
+        (0..script.made.len()).map(|at| undone(&semantics.initial, script, at)).collect();
     let mut undisputed = Vec::new();
     for set in 0..=script.whole() {
         let seen = sights.of(semantics, histories, script, set);
@@ -153,32 +187,44 @@ pub(super) fn undisputed(
             let part = set & !(1 << at);
             !script.is_closed(part) || undisputed.get(part as usize).copied().unwrap_or(false)
         });
-        undisputed.push(script.is_closed(set) && parts_are && is_alone(script, set, &seen));
+        undisputed.push(script.is_closed(set) && parts_are && is_alone(script, &undone, set, &seen));
     }
     undisputed
 }
 
-/// Whether no repair is made, no attribute is written twice, no mutation undoes what its author has not seen, and no two
-/// that are concurrent replace the same.
-fn is_alone(script: &Script, set: Set, seen: &Seen) -> bool {
-    let is_seen_off = |at: usize, dot: Dot| {
-        members(set).any(|other| {
-            script.made[other].had >> at & 1 == 1 && script.made[other].delta.context().contains(dot)
-        })
+/// The records that a mutation undoes knowingly: those that it kills, and what its author had that is anchored to them.
+fn undone(scene: &State, script: &Script, at: usize) -> BTreeSet<Dot> {
+    let made = &script.made[at];
+    let killed = made.delta.context().runs().flat_map(Run::dots).filter(|dot| !made.delta.holds(*dot));
+    let mut undone: BTreeSet<Dot> = killed.collect();
+    let known = || {
+        let others = members(made.had).flat_map(|other| script.made[other].delta.records());
+        scene.records().chain(others)
     };
+    loop {
+        let hangs = |(_, record): &(Dot, &Record)| record.anchors().any(|anchor| undone.contains(&anchor));
+        let more: Vec<Dot> =
+            known().filter(hangs).map(|(dot, _)| dot).filter(|dot| !undone.contains(dot)).collect();
+        if more.is_empty() {
+            return undone;
+        }
+        undone.extend(more);
+    }
+}
+
+/// Whether no repair is made, no attribute is written twice, no mutation undoes what its author has not seen, and no two
+/// that are concurrent undo the same, unless both only remove.
+fn is_alone(script: &Script, undone: &[BTreeSet<Dot>], set: Set, seen: &Seen) -> bool {
     let dies_unseen = members(set).any(|at| {
         let mut records = script.made[at].delta.records();
-        records.any(|(dot, _)| seen.fate(dot) == Fate::Dead && !is_seen_off(at, dot))
+        records.any(|(dot, _)| {
+            seen.fate(dot) == Fate::Dead && !members(set).any(|other| undone[other].contains(&dot))
+        })
     });
-    let replaces_too = |left: usize, right: usize| {
-        let (left, right) = (&script.made[left].delta, &script.made[right].delta);
-        let killed = |dot: &Dot| !left.holds(*dot) && right.context().contains(*dot) && !right.holds(*dot);
-        let dots = left.context().runs().flat_map(dsr_core::Run::dots);
-        dots.filter(killed).count() > 0 && !(left.is_empty() && right.is_empty())
+    let competes = |left: usize, right: usize| {
+        let only_remove = script.made[left].delta.is_empty() && script.made[right].delta.is_empty();
+        script.is_concurrent(left, right) && !only_remove && !undone[left].is_disjoint(&undone[right])
     };
-    let competes = members(set).any(|left| {
-        members(set)
-            .any(|right| left < right && script.is_concurrent(left, right) && replaces_too(left, right))
-    });
-    seen.repairs.is_empty() && !seen.has_two_writes && !dies_unseen && !competes
+    let compete = members(set).any(|left| members(set).any(|right| left < right && competes(left, right)));
+    seen.repairs.is_empty() && !seen.has_two_writes && !dies_unseen && !compete
 }
