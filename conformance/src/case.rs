@@ -90,6 +90,12 @@ pub struct Provenance {
     /// The row of the gallery.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub row: Option<String>,
+    /// Of the model: how many replicas make how many mutations each at most.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bound: Option<String>,
+    /// Of the model: by which rule of the chapter the history was kept.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rule: Option<String>,
 }
 
 /// How a case came about.
@@ -100,6 +106,8 @@ pub enum Origin {
     Hand,
     /// The schedule of a known anomaly of the published system: a row of the checker's gallery.
     Gallery,
+    /// One of all histories of the model within a bound, kept because it tells something apart.
+    Model,
 }
 
 /// One step.

@@ -29,8 +29,8 @@ pub struct Score {
     pub broken: &'static str,
     /// The clause that it offends, at its root.
     pub clause: &'static str,
-    /// How many cases it does not pass.
-    pub failed: usize,
+    /// How many cases it does not pass; null if nobody has counted.
+    pub failed: Option<usize>,
     /// The one of these with the fewest steps.
     pub shortest: Option<String>,
 }
@@ -43,7 +43,7 @@ pub struct Scores {
     pub cores: Vec<Score>,
     /// How many were found.
     pub found: usize,
-    /// How many cases were run on each.
+    /// How many cases there are that can be run on each.
     pub cases: usize,
 }
 
@@ -64,11 +64,26 @@ pub fn run_broken(alarm: &Alarm, cases: &[Case]) -> Report {
     run(&mut InProcess(|| CoreAdapter::of(Flawed(alarm.clone()))), cases)
 }
 
+/// How much is run.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Extent {
+    /// Of each core the cases in the order of their length, until one fails.
+    UntilFound,
+    /// Every case.
+    All,
+}
+
 /// Runs every broken core on cases. Some of them count dots one by one: cases that name far ones are left out.
-pub fn score(cases: &[Case]) -> Scores {
-    let cases: Vec<Case> = cases.iter().filter(|case| !names_far_dots(case)).cloned().collect();
-    let cores: Vec<_> = broken_cores().map(|alarm| of(&alarm, &cases)).collect();
-    Scores { found: cores.iter().filter(|core| core.failed > 0).count(), cores, cases: cases.len() }
+pub fn score(cases: &[Case], extent: Extent) -> Scores {
+    let mut cases: Vec<Case> = cases.iter().filter(|case| !names_far_dots(case)).cloned().collect();
+    cases.sort_by_key(|case| case.steps.len());
+    let of = |alarm: Alarm| match extent {
+        Extent::All => counted(&alarm, &cases),
+        Extent::UntilFound => first(&alarm, &cases),
+    };
+    let cores: Vec<_> = broken_cores().map(of).collect();
+    let found = cores.iter().filter(|core| core.shortest.is_some()).count();
+    Scores { found, cores, cases: cases.len() }
 }
 
 /// Whether something that comes from outside has a dot of a sequence over [`NEAR`].
@@ -88,16 +103,19 @@ fn names_far_dots(case: &Case) -> bool {
     })
 }
 
-fn of(alarm: &Alarm, cases: &[Case]) -> Score {
-    let report = run_broken(alarm, cases);
-    let bad = report.results.iter().zip(cases).filter(|(result, _)| result.verdict == Verdict::Fail);
-    let bad: Vec<_> = bad.map(|(_, case)| case).collect();
-    let shortest = bad.iter().min_by_key(|case| case.steps.len());
-    Score {
-        flaw: alarm.name,
-        broken: alarm.broken,
-        clause: alarm.clause,
-        failed: bad.len(),
-        shortest: shortest.map(|case| case.id.clone()),
-    }
+fn first(alarm: &Alarm, shortest_first: &[Case]) -> Score {
+    let fails = |case: &&Case| run_broken(alarm, std::slice::from_ref(*case)).count(Verdict::Fail) > 0;
+    of(alarm, None, shortest_first.iter().find(fails))
+}
+
+fn counted(alarm: &Alarm, shortest_first: &[Case]) -> Score {
+    let report = run_broken(alarm, shortest_first);
+    let results = report.results.iter().zip(shortest_first);
+    let bad: Vec<_> = results.filter(|(result, _)| result.verdict == Verdict::Fail).collect();
+    of(alarm, Some(bad.len()), bad.first().map(|(_, case)| *case))
+}
+
+fn of(alarm: &Alarm, failed: Option<usize>, shortest: Option<&Case>) -> Score {
+    let (flaw, broken, clause) = (alarm.name, alarm.broken, alarm.clause);
+    Score { flaw, broken, clause, failed, shortest: shortest.map(|case| case.id.clone()) }
 }

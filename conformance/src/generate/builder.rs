@@ -38,6 +38,12 @@ pub enum CannotWrite {
         /// Who.
         replica: String,
     },
+    /// The checker does not enumerate histories as it should.
+    #[error("the checker fails: {what}")]
+    History {
+        /// How.
+        what: String,
+    },
     /// No step has named this delta.
     #[error("no step makes the delta {delta:?}")]
     Delta {

@@ -65,7 +65,7 @@ fn case(row: &Row, family: &str, builder: Builder, resynchronises: bool) -> Case
         replicas: builder.names(),
         dictionary: None,
         steps: builder.steps,
-        provenance: Provenance { kind: Origin::Gallery, row: Some(row.row.into()) },
+        provenance: Provenance { kind: Origin::Gallery, row: Some(row.row.into()), bound: None, rule: None },
         choice: None,
         since: None,
     }

@@ -4,6 +4,8 @@
 
 mod builder;
 mod gallery;
+mod model;
 
 pub use builder::{Builder, CannotWrite};
 pub use gallery::{LEFT_OUT, gallery};
+pub use model::{Generated, Group, Rule, model};
