@@ -12,7 +12,7 @@ use crate::case::{Case, Step};
 use crate::report::{Report, Verdict};
 use crate::run::{InProcess, run};
 use dsr_core::{CausalContext, State, decode, decode_digest};
-use dsr_model::alarms::{Alarm, all};
+use dsr_model::alarms::{Alarm, all, none};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -41,6 +41,9 @@ pub struct Score {
 pub struct Scores {
     /// Core by core.
     pub cores: Vec<Score>,
+    /// Cases that the sound core does not pass in the place of a broken one: there must be none, or what is found is not
+    /// due to the flaws.
+    pub control: Vec<String>,
     /// How many were found.
     pub found: usize,
     /// How many cases there are that can be run on each.
@@ -48,9 +51,9 @@ pub struct Scores {
 }
 
 impl Scores {
-    /// Whether none was missed.
+    /// Whether none was missed, and the sound core fails nothing.
     pub fn is_full(&self) -> bool {
-        self.found == self.cores.len()
+        self.control.is_empty() && self.found == self.cores.len()
     }
 }
 
@@ -83,7 +86,9 @@ pub fn score(cases: &[Case], extent: Extent) -> Scores {
     };
     let cores: Vec<_> = broken_cores().map(of).collect();
     let found = cores.iter().filter(|core| core.shortest.is_some()).count();
-    Scores { found, cores, cases: cases.len() }
+    let control = run_broken(&none(), &cases).results.into_iter();
+    let control = control.filter(|result| result.verdict.is_bad()).map(|result| result.id).collect();
+    Scores { control, found, cores, cases: cases.len() }
 }
 
 /// Whether something that comes from outside has a dot of a sequence over [`NEAR`].

@@ -46,6 +46,9 @@ fn text(scores: &Scores) -> String {
         let failed = core.failed.map_or_else(|| "-".into(), |failed| failed.to_string());
         add(&mut text, format_args!("{:<24} {:<9} {failed:>6}  {shortest}\n", core.flaw, core.clause));
     }
+    for case in &scores.control {
+        add(&mut text, format_args!("{:<24} {:<9} {:>6}  {case}\n", "none: THE HARNESS ERRS", "", "-"));
+    }
     let (found, all) = (scores.found, scores.cores.len());
     let percent = found * 100 / all.max(1);
     add(&mut text, format_args!("{found} of {all} found by {} cases: {percent} %\n", scores.cases));

@@ -64,6 +64,11 @@ fn alarm(name: &'static str, clause: &'static str, broken: &'static str, flaw: i
     Alarm { name, broken, clause, flaw: Arc::new(flaw) }
 }
 
+/// No alarm: the sound core where a broken one is expected, to show that what is found is due to the flaw.
+pub fn none() -> Alarm {
+    alarm("none", "", "nothing is broken", Sound)
+}
+
 /// Every alarm.
 pub fn all() -> Vec<Alarm> {
     [of_joins(), of_authors(), of_resynchronisation(), of_views(), of_shapes()].concat()

@@ -3,6 +3,7 @@
 
 use dsr_core::{
     Dictionary, Dot, EdgeId, Name, Placement, Record, Repair, ShownEdge, Shows, State, VertexId, View, Write,
+    is_root_name,
 };
 use std::collections::BTreeMap;
 
@@ -79,7 +80,7 @@ impl Shows for Shown<'_> {
     }
 
     fn vertex_by_name(&self, name: &str) -> Option<VertexId> {
-        self.names.get(name).copied()
+        self.names.get(name).copied().or_else(|| is_root_name(name).then_some(VertexId::ROOT))
     }
 
     fn writes(&self) -> &[(Dot, &Write)] {
