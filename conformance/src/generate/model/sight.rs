@@ -1,7 +1,7 @@
 //! What is seen of a delivered set. `[spec: CONF-20]`
 
 use super::script::{Script, Set, members, state};
-use dsr_core::{Dot, EdgeId, Record, Repair, ReplicaId, Run, State, VertexId, View, view};
+use dsr_core::{Dot, EdgeId, Name, Record, Repair, ReplicaId, Run, State, VertexId, View, view};
 use dsr_model::checked::Checked;
 use dsr_model::histories::Histories;
 use dsr_model::tables::StateId;
@@ -180,6 +180,8 @@ pub(super) fn undisputed(
 ) -> Vec<bool> {
     let undone: Vec<BTreeSet<Dot>> =
         (0..script.made.len()).map(|at| undone(&semantics.initial, script, at)).collect();
+    let touched: Vec<_> =
+        (0..script.made.len()).map(|at| touched(&semantics.initial, script, at, &undone[at])).collect();
     let mut undisputed = Vec::new();
     for set in 0..=script.whole() {
         let seen = sights.of(semantics, histories, script, set);
@@ -187,7 +189,8 @@ pub(super) fn undisputed(
             let part = set & !(1 << at);
             !script.is_closed(part) || undisputed.get(part as usize).copied().unwrap_or(false)
         });
-        undisputed.push(script.is_closed(set) && parts_are && is_alone(script, &undone, set, &seen));
+        undisputed
+            .push(script.is_closed(set) && parts_are && is_alone(script, &undone, &touched, set, &seen));
     }
     undisputed
 }
@@ -212,9 +215,31 @@ fn undone(scene: &State, script: &Script, at: usize) -> BTreeSet<Dot> {
     }
 }
 
+/// What a record is for, whoever makes it: an attribute of an element, an edge of a key.
+type Place = (Dot, Name, Option<Dot>);
+
+/// What the records are for that a mutation makes or undoes.
+fn touched(scene: &State, script: &Script, at: usize, undone: &BTreeSet<Dot>) -> BTreeSet<Place> {
+    let others = script.made.iter().flat_map(|made| made.delta.records());
+    let all = scene.records().chain(others);
+    let own = |dot: &Dot| undone.contains(dot) || script.made[at].delta.holds(*dot);
+    let place = |record: &Record| match record {
+        Record::Write(write) => Some((write.target, write.name.clone(), None)),
+        Record::Edge(edge) => Some((edge.from.0, edge.label.clone(), Some(edge.to.0))),
+        Record::Vertex(_) => None,
+    };
+    all.filter(|(dot, _)| own(dot)).filter_map(|(_, record)| place(record)).collect()
+}
+
 /// Whether no repair is made, no attribute is written twice, no mutation undoes what its author has not seen, and no two
-/// that are concurrent undo the same, unless both only remove.
-fn is_alone(script: &Script, undone: &[BTreeSet<Dot>], set: Set, seen: &Seen) -> bool {
+/// that are concurrent undo the same, or one undoes what the other makes anew, unless both only remove.
+fn is_alone(
+    script: &Script,
+    undone: &[BTreeSet<Dot>],
+    touched: &[BTreeSet<Place>],
+    set: Set,
+    seen: &Seen,
+) -> bool {
     let dies_unseen = members(set).any(|at| {
         let mut records = script.made[at].delta.records();
         records.any(|(dot, _)| {
@@ -223,7 +248,9 @@ fn is_alone(script: &Script, undone: &[BTreeSet<Dot>], set: Set, seen: &Seen) ->
     });
     let competes = |left: usize, right: usize| {
         let only_remove = script.made[left].delta.is_empty() && script.made[right].delta.is_empty();
-        script.is_concurrent(left, right) && !only_remove && !undone[left].is_disjoint(&undone[right])
+        let undo_the_same = !undone[left].is_disjoint(&undone[right]);
+        let meet = undo_the_same || !touched[left].is_disjoint(&touched[right]);
+        script.is_concurrent(left, right) && !only_remove && meet
     };
     let compete = members(set).any(|left| members(set).any(|right| left < right && competes(left, right)));
     seen.repairs.is_empty() && !seen.has_two_writes && !dies_unseen && !compete
