@@ -254,7 +254,9 @@ impl<E: Edition> Replica for PublishedGraph<E> {
                 graph.vertices.insert(handle.into(), vertex);
             }
         }
-        edges.into_iter().for_each(|(edge, attributes)| graph.show(edge, attributes));
+        for (edge, attributes) in edges {
+            graph.show(edge, attributes);
+        }
         Ok(graph)
     }
 

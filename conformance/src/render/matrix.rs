@@ -64,7 +64,7 @@ struct Page<'p> {
     cases: BTreeMap<&'p str, &'p Case>,
 }
 
-impl<'p> Page<'p> {
+impl Page<'_> {
     /// Whether a failure is one of this clause, whatever its case is about.
     fn breaks(&self, line: &CaseLine, clause: &str) -> bool {
         if let Some(broken) = &line.broken {

@@ -39,7 +39,7 @@ impl Writer<'_> {
             None
         };
         // An undisputed part is a smaller history, and one that is alike is kept.
-        let is_early = |set: Set| !is_undisputed(set) && !(is_founded && self.script.is_closed(set));
+        let is_early = |set: Set| !(is_undisputed(set) || is_founded && self.script.is_closed(set));
         let is_late = |set: Set| !is_undisputed(set) && is_founded && self.script.is_closed(set);
         let exact = |is_wanted: &dyn Fn(Set) -> bool, part: Part| {
             if self.sets().any(is_wanted) {

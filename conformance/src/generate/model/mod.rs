@@ -87,7 +87,9 @@ pub fn model(group: &Group) -> Result<Generated, CannotWrite> {
         let sets = 0..=script.whole();
         let seen = sets.map(|set| sights.of(&semantics, &mut histories, script, set)).collect();
         let of_script = sights.early(&semantics, &mut histories, script);
-        let is_new_early = of_script.into_iter().fold(false, |is_new, seen| early.insert(seen) || is_new);
+        let before = early.len();
+        early.extend(of_script);
+        let is_new_early = early.len() > before;
         let cases = Writer { group, script, rule, undisputed, seen, is_new_early }.cases()?;
         for (file, case) in files.iter_mut().zip(cases) {
             file.cases.extend(case);
