@@ -1,7 +1,5 @@
 //! The corpus finds every core that the checker has broken on purpose.
 
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on says where")]
-
 use dsr_conformance::case::Case;
 use dsr_conformance::corpus;
 use dsr_conformance::score::{Extent, score};

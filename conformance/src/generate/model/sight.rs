@@ -1,7 +1,7 @@
 //! What is seen of a delivered set. `[spec: CONF-20]`
 
 use super::script::{Script, Set, members, state};
-use dsr_core::{Dot, EdgeId, Name, Record, Repair, ReplicaId, Run, State, VertexId, View, view};
+use dsr_core::{Dictionary, Dot, EdgeId, Record, Repair, ReplicaId, State, VertexId, View, view};
 use dsr_model::checked::Checked;
 use dsr_model::histories::Histories;
 use dsr_model::tables::StateId;
@@ -178,10 +178,8 @@ pub(super) fn undisputed(
     sights: &mut Sights,
     script: &Script,
 ) -> Vec<bool> {
-    let undone: Vec<BTreeSet<Dot>> =
+    let undone: Vec<Undone> =
         (0..script.made.len()).map(|at| undone(&semantics.initial, script, at)).collect();
-    let touched: Vec<_> =
-        (0..script.made.len()).map(|at| touched(&semantics.initial, script, at, &undone[at])).collect();
     let mut undisputed = Vec::new();
     for set in 0..=script.whole() {
         let seen = sights.of(semantics, histories, script, set);
@@ -189,25 +187,31 @@ pub(super) fn undisputed(
             let part = set & !(1 << at);
             !script.is_closed(part) || undisputed.get(part as usize).copied().unwrap_or(false)
         });
-        undisputed
-            .push(script.is_closed(set) && parts_are && is_alone(script, &undone, &touched, set, &seen));
+        let is_undisputed = script.is_closed(set)
+            && parts_are
+            && is_alone(&semantics.dictionary, script, &undone, set, &seen);
+        undisputed.push(is_undisputed);
     }
     undisputed
 }
 
+/// Records that a mutation undoes, by their dots.
+type Undone = BTreeMap<Dot, Record>;
+
 /// The records that a mutation undoes knowingly: those that it kills, and what its author had that is anchored to them.
-fn undone(scene: &State, script: &Script, at: usize) -> BTreeSet<Dot> {
+fn undone(scene: &State, script: &Script, at: usize) -> Undone {
     let made = &script.made[at];
-    let killed = made.delta.context().runs().flat_map(Run::dots).filter(|dot| !made.delta.holds(*dot));
-    let mut undone: BTreeSet<Dot> = killed.collect();
     let known = || {
         let others = members(made.had).flat_map(|other| script.made[other].delta.records());
         scene.records().chain(others)
     };
+    let kills = |dot: Dot| made.delta.context().contains(dot) && !made.delta.holds(dot);
+    let killed = known().filter(|(dot, _)| kills(*dot));
+    let mut undone: Undone = killed.map(|(dot, record)| (dot, record.clone())).collect();
     loop {
-        let hangs = |(_, record): &(Dot, &Record)| record.anchors().any(|anchor| undone.contains(&anchor));
-        let more: Vec<Dot> =
-            known().filter(hangs).map(|(dot, _)| dot).filter(|dot| !undone.contains(dot)).collect();
+        let hangs = |record: &Record| record.anchors().any(|anchor| undone.contains_key(&anchor));
+        let more = known().filter(|(dot, record)| !undone.contains_key(dot) && hangs(record));
+        let more: Vec<(Dot, Record)> = more.map(|(dot, record)| (dot, record.clone())).collect();
         if more.is_empty() {
             return undone;
         }
@@ -215,43 +219,44 @@ fn undone(scene: &State, script: &Script, at: usize) -> BTreeSet<Dot> {
     }
 }
 
-/// What a record is for, whoever makes it: an attribute of an element, an edge of a key.
-type Place = (Dot, Name, Option<Dot>);
-
-/// What the records are for that a mutation makes or undoes.
-fn touched(scene: &State, script: &Script, at: usize, undone: &BTreeSet<Dot>) -> BTreeSet<Place> {
-    let others = script.made.iter().flat_map(|made| made.delta.records());
-    let all = scene.records().chain(others);
-    let own = |dot: &Dot| undone.contains(dot) || script.made[at].delta.holds(*dot);
-    let place = |record: &Record| match record {
-        Record::Write(write) => Some((write.target, write.name.clone(), None)),
-        Record::Edge(edge) => Some((edge.from.0, edge.label.clone(), Some(edge.to.0))),
-        Record::Vertex(_) => None,
-    };
-    all.filter(|(dot, _)| own(dot)).filter_map(|(_, record)| place(record)).collect()
+/// Whether two records say something of the same: one attribute, one edge, one vertex's parent, one functional label.
+fn are_of_one(left: &Record, right: &Record, dictionary: &Dictionary) -> bool {
+    match (left, right) {
+        (Record::Write(left), Record::Write(right)) => left.target == right.target && left.name == right.name,
+        (Record::Edge(left), Record::Edge(right)) => {
+            let from_one = left.from == right.from;
+            left.label == right.label
+                && if left.is_rt() {
+                    left.to == right.to
+                } else {
+                    from_one && (left.to == right.to || dictionary.is_functional(&left.label))
+                }
+        }
+        _ => false,
+    }
 }
 
-/// Whether no repair is made, no attribute is written twice, no mutation undoes what its author has not seen, and no two
-/// that are concurrent undo the same, or one undoes what the other makes anew, unless both only remove.
-fn is_alone(
-    script: &Script,
-    undone: &[BTreeSet<Dot>],
-    touched: &[BTreeSet<Place>],
-    set: Set,
-    seen: &Seen,
-) -> bool {
+/// Whether no repair is made, no attribute is written twice, no mutation undoes what its author has not seen, and of no
+/// two that are concurrent one says something of what the other undoes.
+fn is_alone(dictionary: &Dictionary, script: &Script, undone: &[Undone], set: Set, seen: &Seen) -> bool {
     let dies_unseen = members(set).any(|at| {
         let mut records = script.made[at].delta.records();
         records.any(|(dot, _)| {
-            seen.fate(dot) == Fate::Dead && !members(set).any(|other| undone[other].contains(&dot))
+            seen.fate(dot) == Fate::Dead && !members(set).any(|other| undone[other].contains_key(&dot))
         })
     });
-    let competes = |left: usize, right: usize| {
-        let only_remove = script.made[left].delta.is_empty() && script.made[right].delta.is_empty();
-        let undo_the_same = !undone[left].is_disjoint(&undone[right]);
-        let meet = undo_the_same || !touched[left].is_disjoint(&touched[right]);
-        script.is_concurrent(left, right) && !only_remove && meet
+    let contradicts = |at: usize, other: usize| {
+        let mut records = script.made[at].delta.records();
+        let is_of_one = |record| undone[other].values().any(|gone| are_of_one(record, gone, dictionary));
+        script.is_concurrent(at, other) && records.any(|(_, record)| is_of_one(record))
     };
-    let compete = members(set).any(|left| members(set).any(|right| left < right && competes(left, right)));
-    seen.repairs.is_empty() && !seen.has_two_writes && !dies_unseen && !compete
+    // What both replace, each by something else.
+    let replace = |at: usize, other: usize| {
+        let only_remove = script.made[at].delta.is_empty() && script.made[other].delta.is_empty();
+        let same = undone[at].keys().any(|dot| undone[other].contains_key(dot));
+        script.is_concurrent(at, other) && !only_remove && same
+    };
+    let disputes = |at: usize, other: usize| at != other && (contradicts(at, other) || replace(at, other));
+    let disputed = members(set).any(|at| members(set).any(|other| disputes(at, other)));
+    seen.repairs.is_empty() && !seen.has_two_writes && !dies_unseen && !disputed
 }
