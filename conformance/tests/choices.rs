@@ -1,7 +1,5 @@
 //! What the corpus says of the choices of the specification.
 
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on says where")]
-
 use dsr_conformance::case::Origin;
 use dsr_conformance::corpus;
 use serde::Deserialize;

@@ -34,27 +34,16 @@ fn folder(family: &str) -> PathBuf {
 /// `[spec: CONF-20]`
 #[test]
 fn conform_the_models_cases_are_those_of_its_histories() {
-    let begun = std::time::Instant::now();
     let groups = generated();
-    println!("{:?}", begun.elapsed());
     let mut expected = BTreeMap::new();
     let mut ids = BTreeSet::new();
     for (group, generated) in &groups {
         let Generated { histories, different, alike, kept, files } = generated;
-        let cases: Vec<_> = files
-            .iter()
-            .map(|f| {
-                (
-                    f.family.clone(),
-                    f.cases.len(),
-                    f.cases.iter().filter(|c| c.provenance.rule.as_deref() == Some("CONF-20b")).count(),
-                    f.cases.iter().filter(|c| c.dictionary.is_some()).count(),
-                    f.cases.iter().map(|c| c.steps.len()).sum::<usize>(),
-                    write(f).unwrap().len(),
-                )
-            })
-            .collect();
-        println!("{:<40} {histories:>7} {different:>7} {alike:>5} {kept:>4} {cases:?}", group.topic());
+        let cases: usize = files.iter().map(|file| file.cases.len()).sum();
+        println!(
+            "{:<40} {histories:>6} histories, {different:>6} different, {alike:>4} unlike, {kept:>3} kept: {cases} cases",
+            group.topic()
+        );
         for file in files {
             for case in &file.cases {
                 assert!(ids.insert(case.id.clone()), "{} is there twice", case.id);

@@ -35,7 +35,7 @@ mod tests {
             let mut sets: Vec<u32> = chains.concat();
             sets.sort_unstable();
             assert_eq!(sets, (0..1 << count).collect::<Vec<_>>());
-            let grows = |pair: &[u32]| pair[0] & !pair[1] == 0 && (pair[0] ^ pair[1]).count_ones() == 1;
+            let grows = |pair: &[u32]| pair[0] & !pair[1] == 0 && (pair[0] ^ pair[1]).is_power_of_two();
             assert!(chains.iter().all(|chain| chain.windows(2).all(grows)));
         }
     }

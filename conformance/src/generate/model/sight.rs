@@ -257,6 +257,6 @@ fn is_alone(dictionary: &Dictionary, script: &Script, undone: &[Undone], set: Se
         script.is_concurrent(at, other) && !only_remove && same
     };
     let disputes = |at: usize, other: usize| at != other && (contradicts(at, other) || replace(at, other));
-    let disputed = members(set).any(|at| members(set).any(|other| disputes(at, other)));
-    seen.repairs.is_empty() && !seen.has_two_writes && !dies_unseen && !disputed
+    let is_disputed = members(set).any(|at| members(set).any(|other| disputes(at, other)));
+    seen.repairs.is_empty() && !seen.has_two_writes && !dies_unseen && !is_disputed
 }
