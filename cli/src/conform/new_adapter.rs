@@ -100,7 +100,7 @@ fn next(template: &Template, folder: &Path) -> String {
     let build = template.build.map(|build| format!(" && {build}")).unwrap_or_default();
     let start = template.start;
     format!(
-        "{}: wrote {}\nNext:\n  cd {}{build}\n  dsr conform run --only 'universal/mutations/*' -- {start}\n  \
+        "{}: wrote {}\nNext:\n  cd {}{build}\n  dsr conform smoke -- {start}\n  \
          dsr conform run -- {start}\n",
         folder.display(),
         files.join(", "),
