@@ -16,7 +16,8 @@ use std::process::ExitCode;
 #[command(name = "dsr-peer", version)]
 struct Arguments {
     /// Whose CRDTs hold the graph.
-    library: Library,
+    #[arg(value_name = "LIBRARY")]
+    whose: Library,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -34,7 +35,7 @@ enum Library {
 }
 
 fn main() -> ExitCode {
-    let mut adapter: Box<dyn Adapter> = match Arguments::parse().library {
+    let mut adapter: Box<dyn Adapter> = match Arguments::parse().whose {
         Library::Automerge => Box::new(Peer::<AutomergeGraph>::default()),
         Library::Loro => Box::new(Peer::<LoroGraph>::default()),
         Library::Published => Box::new(Peer::<PublishedGraph<Upstream>>::default()),

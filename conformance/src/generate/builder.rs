@@ -165,7 +165,7 @@ impl Builder {
     }
 
     /// A replica must show what the core does.
-    pub fn expect(&mut self, replica: usize) {
+    pub fn expect_view(&mut self, replica: usize) {
         let view = self.shown(replica).canonical();
         self.steps.push(Step::Expect { replica: self.name(replica), view });
     }

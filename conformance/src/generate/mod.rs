@@ -7,5 +7,5 @@ mod gallery;
 mod model;
 
 pub use builder::{Builder, CannotWrite};
-pub use gallery::{LEFT_OUT, gallery};
+pub use gallery::gallery;
 pub use model::{Generated, Group, Rule, model};

@@ -56,7 +56,7 @@ impl Stage {
     ) -> Result<(), CannotWrite> {
         for &set in chain.iter().filter(|&&set| set != 0 && is_wanted(set)) {
             self.deliver_latest_first(observer, set, 1)?;
-            self.builder.expect(observer);
+            self.builder.expect_view(observer);
         }
         Ok(())
     }
@@ -106,7 +106,7 @@ pub(super) fn equal(script: &Script, dictionary: Dictionary, shows: bool) -> Res
         stage.deliver_latest_first(author, whole, 1)?;
     }
     if shows {
-        stage.builder.expect(0);
+        stage.builder.expect_view(0);
     }
     let everybody: Vec<usize> = (0..stage.received.len()).collect();
     stage.builder.expect_equal(&everybody);
