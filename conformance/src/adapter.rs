@@ -2,8 +2,8 @@
 
 use crate::protocol::{
     Answer, AnswerDigest, AnswerFor, BytesShown, CaseBegin, Command, Decline, Decode, Deliver, DeltaName,
-    DigestShown, Done, ErrorCode, Found, Group, Hello, HelloReply, Load, Lookup, MadeDelta, Mutate, Read,
-    Restart, Shown, StateShown,
+    DigestShown, Done, ErrorCode, Feature, Found, Group, Hello, HelloReply, Implementation, Limits, Load,
+    Lookup, MadeDelta, Mutate, PROTOCOL, Profile, Read, Restart, Shown, StateShown,
 };
 
 pub use crate::core_adapter::{Core, CoreAdapter, Engine, Plain, Refusal};
@@ -104,4 +104,55 @@ pub fn answer(adapter: &mut dyn Adapter, command: &Command) -> Result<Answer, De
         Command::Decode(decode) => Answer::Delta(adapter.decode(decode)?),
         Command::AnswerDigest(answer) => Answer::Delta(adapter.answer_digest(answer)?),
     })
+}
+
+/// The reply to the handshake of who speaks this crate's protocol. `[spec: CONF-3]`
+pub fn shake(
+    hello: &Hello,
+    implementation: Implementation,
+    profiles: &[Profile],
+    features: &[Feature],
+    limits: Limits,
+) -> Result<HelloReply, Decline> {
+    if !hello.protocols.contains(&PROTOCOL) {
+        let message = format!("protocols {:?} are offered; this adapter speaks {PROTOCOL}", hello.protocols);
+        return Err(Decline::error(ErrorCode::Unsupported, message));
+    }
+    Ok(HelloReply {
+        protocol: PROTOCOL,
+        implementation,
+        profiles: profiles.iter().map(|profile| profile.name().into()).collect(),
+        features: features.iter().map(|feature| feature.name().into()).collect(),
+        limits,
+    })
+}
+
+/// That nobody has named this replica.
+pub fn no_replica(name: &str) -> Decline {
+    Decline::error(ErrorCode::Unknown, format!("no replica {name:?} in this case"))
+}
+
+/// The deltas of a case, under the names that an adapter gives them. `[spec: CONF-4]`
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Kept<D>(Vec<D>);
+
+impl<D> Default for Kept<D> {
+    fn default() -> Self {
+        Self(Vec::new())
+    }
+}
+
+impl<D> Kept<D> {
+    /// Keeps a delta, and names it.
+    pub fn keep(&mut self, delta: D) -> MadeDelta {
+        self.0.push(delta);
+        MadeDelta { delta: format!("d{}", self.0.len()) }
+    }
+
+    /// The delta of a name.
+    pub fn get(&self, name: &str) -> Result<&D, Decline> {
+        let number = name.strip_prefix('d').and_then(|number| number.parse::<usize>().ok());
+        let found = number.and_then(|number| self.0.get(number.checked_sub(1)?));
+        found.ok_or_else(|| Decline::error(ErrorCode::Unknown, format!("no delta {name:?} in this case")))
+    }
 }

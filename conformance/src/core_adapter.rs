@@ -5,12 +5,11 @@ mod handles;
 mod outside;
 mod shown;
 
-use crate::adapter::Adapter;
+use crate::adapter::{Adapter, Kept, no_replica, shake};
 use crate::protocol::{
     AnswerDigest, AnswerFor, BytesShown, CaseBegin, Decline, Decode, Deliver, DeltaName, DigestShown,
     ErrorCode, ErrorReply, Feature, Found, Group, Hello, HelloReply, Hex, Implementation, LINE_BYTES_MAX,
-    Limits, Load, Lookup, MadeDelta, Mutate, PROTOCOL, Profile, Read, ReplicaName, Restart, Shown,
-    StateShown,
+    Limits, Load, Lookup, MadeDelta, Mutate, Profile, Read, ReplicaName, Restart, Shown, StateShown,
 };
 use dsr_core::{
     Author, DecodeError, Delta, Dictionary, Shows, State, decode, decode_digest, delta_for, digest, encode,
@@ -31,7 +30,7 @@ pub struct CoreAdapter<E> {
     dictionary: Dictionary,
     replicas: BTreeMap<ReplicaName, Replica>,
     handles: Handles,
-    deltas: Vec<Delta>,
+    deltas: Kept<Delta>,
 }
 
 #[derive(Debug)]
@@ -44,10 +43,6 @@ struct Replica {
 
 fn refused(message: String, kind: Option<String>) -> Decline {
     Decline::Error(ErrorReply { code: ErrorCode::Refused, message, kind })
-}
-
-fn no_replica(name: &str) -> Decline {
-    Decline::error(ErrorCode::Unknown, format!("no replica {name:?} in this case"))
 }
 
 fn no_json(error: &serde_json::Error) -> Decline {
@@ -70,7 +65,7 @@ impl<E: Engine> CoreAdapter<E> {
             dictionary: Dictionary::default(),
             replicas: BTreeMap::new(),
             handles: Handles::default(),
-            deltas: Vec::new(),
+            deltas: Kept::default(),
         }
     }
 
@@ -81,50 +76,25 @@ impl<E: Engine> CoreAdapter<E> {
     fn state_of(&self, name: &str) -> Result<&State, Decline> {
         self.replicas.get(name).map(|replica| &replica.state).ok_or_else(|| no_replica(name))
     }
-
-    fn keep(&mut self, delta: Delta) -> MadeDelta {
-        self.deltas.push(delta);
-        MadeDelta { delta: format!("d{}", self.deltas.len()) }
-    }
-
-    fn kept(&self, name: &str) -> Result<&Delta, Decline> {
-        kept(&self.deltas, name)
-    }
-}
-
-/// The delta that [`CoreAdapter::keep`] has named so.
-fn kept<'d>(deltas: &'d [Delta], name: &str) -> Result<&'d Delta, Decline> {
-    let number = name.strip_prefix('d').and_then(|number| number.parse::<usize>().ok());
-    let found = number.and_then(|number| deltas.get(number.checked_sub(1)?));
-    found.ok_or_else(|| Decline::error(ErrorCode::Unknown, format!("no delta {name:?} in this case")))
 }
 
 impl<E: Engine> Adapter for CoreAdapter<E> {
     fn hello(&mut self, hello: &Hello) -> Result<HelloReply, Decline> {
-        if !hello.protocols.contains(&PROTOCOL) {
-            let message =
-                format!("protocols {:?} are offered; this adapter speaks {PROTOCOL}", hello.protocols);
-            return Err(Decline::error(ErrorCode::Unsupported, message));
-        }
-        Ok(HelloReply {
-            protocol: PROTOCOL,
-            implementation: Implementation {
-                name: self.engine.name(),
-                version: env!("CARGO_PKG_VERSION").into(),
-                language: "Rust".into(),
-                source: "crdt-core".into(),
-            },
-            profiles: Profile::ALL.iter().map(|profile| profile.name().into()).collect(),
-            features: Feature::ALL.iter().map(|feature| feature.name().into()).collect(),
-            limits: Limits { line_bytes: LINE_BYTES_MAX, replicas: E::REPLICAS_MAX },
-        })
+        let implementation = Implementation {
+            name: self.engine.name(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            language: "Rust".into(),
+            source: "crdt-core".into(),
+        };
+        let limits = Limits { line_bytes: LINE_BYTES_MAX, replicas: E::REPLICAS_MAX };
+        shake(hello, implementation, &Profile::ALL, &Feature::ALL, limits)
     }
 
     fn begin(&mut self, case: &CaseBegin) -> Result<(), Decline> {
         self.dictionary = case.dictionary.clone().unwrap_or_default();
         self.replicas.clear();
         self.handles = Handles::default();
-        self.deltas.clear();
+        self.deltas = Kept::default();
         if case.replicas.len() > E::REPLICAS_MAX {
             let message = format!("{} replicas; the limit is {}", case.replicas.len(), E::REPLICAS_MAX);
             return Err(Decline::error(ErrorCode::RejectedInput, message));
@@ -154,11 +124,11 @@ impl<E: Engine> Adapter for CoreAdapter<E> {
         }
         self.handles = handles;
         self.replica(&mutate.replica)?.state = state;
-        Ok(self.keep(whole))
+        Ok(self.deltas.keep(whole))
     }
 
     fn deliver(&mut self, deliver: &Deliver) -> Result<(), Decline> {
-        let delta = kept(&self.deltas, &deliver.delta)?;
+        let delta = self.deltas.get(&deliver.delta)?;
         let replica = self.replicas.get_mut(&deliver.replica);
         let replica = replica.ok_or_else(|| no_replica(&deliver.replica))?;
         self.engine.join(&mut replica.state, delta);
@@ -175,9 +145,9 @@ impl<E: Engine> Adapter for CoreAdapter<E> {
     fn group(&mut self, group: &Group) -> Result<MadeDelta, Decline> {
         let mut whole = Delta::new();
         for delta in &group.deltas {
-            self.engine.join(&mut whole, self.kept(delta)?);
+            self.engine.join(&mut whole, self.deltas.get(delta)?);
         }
-        Ok(self.keep(whole))
+        Ok(self.deltas.keep(whole))
     }
 
     fn lookup(&mut self, lookup: &Lookup) -> Result<Found, Decline> {
@@ -201,7 +171,7 @@ impl<E: Engine> Adapter for CoreAdapter<E> {
     fn resynchronise(&mut self, answer: &AnswerFor) -> Result<MadeDelta, Decline> {
         let (ours, theirs) = (self.state_of(&answer.from)?, self.state_of(&answer.to)?);
         let delta = self.engine.answer(ours, theirs);
-        Ok(self.keep(delta))
+        Ok(self.deltas.keep(delta))
     }
 
     fn state(&mut self, read: &Read) -> Result<StateShown, Decline> {
@@ -210,7 +180,7 @@ impl<E: Engine> Adapter for CoreAdapter<E> {
     }
 
     fn delta(&mut self, delta: &DeltaName) -> Result<StateShown, Decline> {
-        let state = serde_json::to_value(self.kept(&delta.delta)?);
+        let state = serde_json::to_value(self.deltas.get(&delta.delta)?);
         Ok(StateShown { state: state.map_err(|error| no_json(&error))? })
     }
 
@@ -221,11 +191,11 @@ impl<E: Engine> Adapter for CoreAdapter<E> {
 
     fn load(&mut self, load: &Load) -> Result<MadeDelta, Decline> {
         let delta = outside::state(&load.state).map_err(|(why, kind)| refused(why, kind))?;
-        Ok(self.keep(delta))
+        Ok(self.deltas.keep(delta))
     }
 
     fn encode(&mut self, delta: &DeltaName) -> Result<BytesShown, Decline> {
-        Ok(BytesShown { bytes: Hex(encode(self.kept(&delta.delta)?)) })
+        Ok(BytesShown { bytes: Hex(encode(self.deltas.get(&delta.delta)?)) })
     }
 
     fn encode_digest(&mut self, read: &Read) -> Result<BytesShown, Decline> {
@@ -239,12 +209,12 @@ impl<E: Engine> Adapter for CoreAdapter<E> {
 
     fn decode(&mut self, given: &Decode) -> Result<MadeDelta, Decline> {
         let delta = decode(&given.bytes.0).map_err(|error| undecodable(&error))?;
-        Ok(self.keep(delta))
+        Ok(self.deltas.keep(delta))
     }
 
     fn answer_digest(&mut self, answer: &AnswerDigest) -> Result<MadeDelta, Decline> {
         let theirs = decode_digest(&answer.bytes.0).map_err(|error| undecodable(&error))?;
         let delta = delta_for(self.state_of(&answer.from)?, &theirs);
-        Ok(self.keep(delta))
+        Ok(self.deltas.keep(delta))
     }
 }

@@ -286,3 +286,15 @@ fn failures(report: &Report) -> Vec<&str> {
     let failed = report.results.iter().filter(|result| result.verdict == Verdict::Fail);
     failed.map(|result| result.id.as_str()).collect()
 }
+
+/// `[spec: CONF-12]`
+#[test]
+fn canary_an_adapter_that_closes_its_output_and_lives_on_has_crashed() {
+    let command = ["sh", "-c", "exec 1>&-; sleep 600"].map(String::from).to_vec();
+    let limits = ChildLimits { reply: Duration::from_secs(60), ..ChildLimits::default() };
+    let started = Instant::now();
+    let report = run(&mut Program { command, limits }, &two());
+    verdicts(&report, &[("add-edge", Verdict::Crash), ("remove-edge", Verdict::Crash)]);
+    assert!(report.results[0].failure.what.contains("its output is closed"), "{report:#?}");
+    assert!(started.elapsed() < Duration::from_secs(30));
+}

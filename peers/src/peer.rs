@@ -3,10 +3,10 @@
 use crate::check::{CheckError, check, strands};
 use crate::edit::Edit;
 use crate::replica::{Identity, Message, Replica};
-use dsr_conformance::adapter::Adapter;
+use dsr_conformance::adapter::{Adapter, Kept, no_replica, shake};
 use dsr_conformance::protocol::{
     AnswerFor, CaseBegin, Decline, Deliver, ErrorCode, ErrorReply, Group, Hello, HelloReply, LINE_BYTES_MAX,
-    Limits, MadeDelta, Mutate, Mutation, PROTOCOL, Profile, ROOT, Read, Restart, Shown,
+    Limits, MadeDelta, Mutate, Mutation, Profile, ROOT, Read, Restart, Shown,
 };
 use dsr_core::Dictionary;
 use std::collections::{BTreeMap, BTreeSet};
@@ -22,7 +22,7 @@ pub struct Peer<R: Replica> {
     replicas: BTreeMap<String, Member<R>>,
     /// What the harness has named, in whatever replica. `[spec: CONF-5]`
     handles: BTreeSet<String>,
-    messages: Vec<Message<R::Update>>,
+    messages: Kept<Message<R::Update>>,
 }
 
 #[derive(Debug)]
@@ -37,7 +37,7 @@ impl<R: Replica> Default for Peer<R> {
             dictionary: Dictionary::default(),
             replicas: BTreeMap::new(),
             handles: BTreeSet::new(),
-            messages: Vec::new(),
+            messages: Kept::default(),
         }
     }
 }
@@ -60,10 +60,6 @@ fn declined(error: CheckError) -> Decline {
         }),
         CheckError::Link | CheckError::Target => Decline::error(ErrorCode::RejectedInput, error.to_string()),
     }
-}
-
-fn no_replica(name: &str) -> Decline {
-    Decline::error(ErrorCode::Unknown, format!("no replica {name:?} in this case"))
 }
 
 /// The handles that a mutation takes for granted.
@@ -92,17 +88,6 @@ impl<R: Replica> Peer<R> {
 
     fn replica(&self, name: &str) -> Result<&R, Decline> {
         self.replicas.get(name).map(|member| &member.replica).ok_or_else(|| no_replica(name))
-    }
-
-    fn keep(&mut self, message: Message<R::Update>) -> MadeDelta {
-        self.messages.push(message);
-        MadeDelta { delta: format!("d{}", self.messages.len()) }
-    }
-
-    fn message(&self, name: &str) -> Result<&Message<R::Update>, Decline> {
-        let number = name.strip_prefix('d').and_then(|number| number.parse::<usize>().ok());
-        let found = number.and_then(|number| self.messages.get(number.checked_sub(1)?));
-        found.ok_or_else(|| Decline::error(ErrorCode::Unknown, format!("no delta {name:?} in this case")))
     }
 
     /// Tries a group on a copy, each mutation in what the ones before it have left.
@@ -139,18 +124,8 @@ impl<R: Replica> Peer<R> {
 
 impl<R: Replica> Adapter for Peer<R> {
     fn hello(&mut self, hello: &Hello) -> Result<HelloReply, Decline> {
-        if !hello.protocols.contains(&PROTOCOL) {
-            let message =
-                format!("protocols {:?} are offered; this adapter speaks {PROTOCOL}", hello.protocols);
-            return Err(Decline::error(ErrorCode::Unsupported, message));
-        }
-        Ok(HelloReply {
-            protocol: PROTOCOL,
-            implementation: R::implementation(),
-            profiles: vec![Profile::Observe.name().into()],
-            features: R::FEATURES.iter().map(|feature| feature.name().into()).collect(),
-            limits: Limits { line_bytes: LINE_BYTES_MAX, replicas: REPLICAS_MAX },
-        })
+        let limits = Limits { line_bytes: LINE_BYTES_MAX, replicas: REPLICAS_MAX };
+        shake(hello, R::implementation(), &[Profile::Observe], R::FEATURES, limits)
     }
 
     fn begin(&mut self, case: &CaseBegin) -> Result<(), Decline> {
@@ -173,11 +148,11 @@ impl<R: Replica> Adapter for Peer<R> {
         let (edits, handles) = self.edits(mutate)?;
         let message = self.member(&mutate.replica)?.replica.write(&edits).map_err(unwritten::<R>)?;
         self.handles = handles;
-        Ok(self.keep(message))
+        Ok(self.messages.keep(message))
     }
 
     fn deliver(&mut self, deliver: &Deliver) -> Result<(), Decline> {
-        let message = self.message(&deliver.delta)?.clone();
+        let message = self.messages.get(&deliver.delta)?.clone();
         self.member(&deliver.replica)?.replica.deliver(&message).map_err(internal)
     }
 
@@ -187,9 +162,9 @@ impl<R: Replica> Adapter for Peer<R> {
     }
 
     fn group(&mut self, group: &Group) -> Result<MadeDelta, Decline> {
-        let messages = group.deltas.iter().map(|name| self.message(name));
+        let messages = group.deltas.iter().map(|name| self.messages.get(name));
         let whole = R::group(&messages.collect::<Result<Vec<_>, _>>()?).map_err(internal)?;
-        Ok(self.keep(whole))
+        Ok(self.messages.keep(whole))
     }
 
     fn restart(&mut self, restart: &Restart) -> Result<(), Decline> {
@@ -200,6 +175,6 @@ impl<R: Replica> Adapter for Peer<R> {
 
     fn resynchronise(&mut self, answer: &AnswerFor) -> Result<MadeDelta, Decline> {
         let message = self.replica(&answer.from)?.missing(self.replica(&answer.to)?).map_err(internal)?;
-        Ok(self.keep(message))
+        Ok(self.messages.keep(message))
     }
 }

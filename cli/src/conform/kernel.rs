@@ -6,9 +6,11 @@ use super::look::{Bar, status_of, text};
 use crate::output::{err, out};
 use crate::status::Status;
 use dsr_conformance::adapter::Core;
+use dsr_conformance::case::Case;
 use dsr_conformance::report::Summary;
 use dsr_conformance::run::{InProcess, Open, run_watched};
 use dsr_conformance::serve::serve;
+use std::time::{Duration, Instant};
 
 #[derive(clap::Args, Debug)]
 pub(super) struct OnTheCore {
@@ -30,9 +32,11 @@ impl OnTheCore {
         ];
         let mut summaries = Vec::new();
         for (transport, whom, open) in ways {
+            let begun = Instant::now();
             let report = run_watched(open, &cases, &mut Bar::new(cases.len()));
             if self.printed.format == Format::Text {
                 out(&text(&report, (&cases, &command, whom), &|_| None));
+                out(&pace(&cases, begun.elapsed()));
             }
             summaries.push((transport, report.summary()));
         }
@@ -47,6 +51,15 @@ impl OnTheCore {
         }
         Ok(status_of(summary.verdict))
     }
+}
+
+/// How fast the steps of cases went.
+fn pace(cases: &[Case], time: Duration) -> String {
+    let steps: usize = cases.iter().map(|case| case.steps.len()).sum();
+    let seconds = time.as_secs_f64();
+    #[expect(clippy::cast_precision_loss, reason = "a rate for people")]
+    let rate = steps as f64 / seconds.max(f64::MIN_POSITIVE);
+    format!("  {steps} steps in {seconds:.1} s, {rate:.0} a second\n")
 }
 
 pub(super) fn adapter() -> Result<Status, ConformError> {
