@@ -275,6 +275,32 @@ pub enum Encoded {
 }
 
 impl Step {
+    /// The replicas that it names: who is asked first.
+    pub fn replicas(&self) -> Vec<&str> {
+        match self {
+            Self::Mutate { replica, .. }
+            | Self::Deliver { replica, .. }
+            | Self::Restart { replica, .. }
+            | Self::Expect { replica, .. }
+            | Self::ExpectRefused { replica, .. }
+            | Self::ExpectVertex { replica, .. }
+            | Self::ExpectState { replica, .. }
+            | Self::ExpectDigest { replica, .. }
+            | Self::ExpectBytes { of: Encoded::Digest(replica) | Encoded::Fingerprint(replica), .. }
+            | Self::AnswerDigest { from: replica, .. }
+            | Self::ExpectUnanswerable { from: replica, .. } => vec![replica],
+            Self::Answer { from, to, .. } => vec![from, to],
+            Self::ExpectEqual { replicas } => replicas.iter().map(String::as_str).collect(),
+            Self::Group { .. }
+            | Self::Load { .. }
+            | Self::Decode { .. }
+            | Self::ExpectDelta { .. }
+            | Self::ExpectBytes { of: Encoded::Delta(_), .. }
+            | Self::ExpectUnloadable { .. }
+            | Self::ExpectUndecodable { .. } => Vec::new(),
+        }
+    }
+
     /// Whether it says what must be.
     pub const fn expects(&self) -> bool {
         match self {

@@ -45,12 +45,19 @@ pub(super) enum Format {
 
 #[derive(clap::Args, Debug)]
 pub(super) struct Command {
-    /// The most seconds for one reply
-    #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=3600))]
-    seconds_max: u64,
+    #[command(flatten)]
+    patience: Patience,
     /// The adapter: a program and its arguments
     #[arg(last = true, required = true)]
     pub(super) command: Vec<String>,
+}
+
+/// How long an adapter is waited for.
+#[derive(clap::Args, Clone, Copy, Debug)]
+pub(super) struct Patience {
+    /// The most seconds for one reply
+    #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=3600))]
+    seconds_max: u64,
 }
 
 impl From<Depth> for Profile {
@@ -83,13 +90,15 @@ impl Choice {
 
 impl Command {
     pub(super) fn program(&self) -> Program {
-        program(&self.command, self.seconds_max)
+        self.patience.program(&self.command)
     }
 }
 
-pub(super) fn program(command: &[String], seconds_max: u64) -> Program {
-    let limits = ChildLimits { reply: Duration::from_secs(seconds_max), ..ChildLimits::default() };
-    Program { command: command.to_vec(), limits }
+impl Patience {
+    pub(super) fn program(self, command: &[String]) -> Program {
+        let limits = ChildLimits { reply: Duration::from_secs(self.seconds_max), ..ChildLimits::default() };
+        Program { command: command.to_vec(), limits }
+    }
 }
 
 /// The case of an id.

@@ -1,6 +1,6 @@
 //! `dsr conform expect`.
 
-use super::chosen::{Choice, ids, program};
+use super::chosen::{Choice, Patience, ids};
 use super::error::{ConformError, read_text, write};
 use super::look::Bar;
 use super::run::usable;
@@ -31,9 +31,8 @@ pub(super) struct Arguments {
     to: Option<PathBuf>,
     #[command(flatten)]
     choice: Choice,
-    /// The most seconds for one reply
-    #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=3600))]
-    seconds_max: u64,
+    #[command(flatten)]
+    patience: Patience,
     /// The adapter: a program and its arguments
     #[arg(last = true)]
     command: Vec<String>,
@@ -53,7 +52,7 @@ impl Arguments {
         let old = if path.exists() { Some(Expectations::read(&file, &read_text(path)?)?) } else { None };
         let cases = self.choice.cases()?;
         let report =
-            run_watched(&mut program(&self.command, self.seconds_max), &cases, &mut Bar::new(cases.len()));
+            run_watched(&mut self.patience.program(&self.command), &cases, &mut Bar::new(cases.len()));
         if report.implementation.is_none() {
             let what =
                 "the adapter never said what it is: nothing is written\n  remedy: try `dsr conform smoke`";

@@ -1,6 +1,6 @@
 //! `dsr conform` without a command: this program's core, in the same process and over pipes. `[spec: CONF-18]`
 
-use super::chosen::{Choice, Format, Printed, program};
+use super::chosen::{Choice, Format, Printed};
 use super::error::ConformError;
 use super::look::{Bar, status_of, text};
 use crate::output::{err, out};
@@ -8,7 +8,7 @@ use crate::status::Status;
 use dsr_conformance::adapter::Core;
 use dsr_conformance::case::Case;
 use dsr_conformance::report::Summary;
-use dsr_conformance::run::{InProcess, Open, run_watched};
+use dsr_conformance::run::{ChildLimits, InProcess, Open, Program, run_watched};
 use dsr_conformance::serve::serve;
 use std::time::{Duration, Instant};
 
@@ -25,7 +25,8 @@ impl OnTheCore {
         let cases = self.choice.cases()?;
         let myself = std::env::current_exe().map_err(ConformError::Myself)?;
         let command = vec![myself.to_string_lossy().into_owned(), "conform".into(), "adapter".into()];
-        let (mut here, mut there) = (InProcess(Core::default), program(&command, 10));
+        let (mut here, mut there) =
+            (InProcess(Core::default), Program { command: command.clone(), limits: ChildLimits::default() });
         let ways: [(&str, &str, &mut dyn Open); 2] = [
             ("in-process", "the core, in-process", &mut here),
             ("stdio", "the core, over pipes", &mut there),

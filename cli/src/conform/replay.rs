@@ -1,6 +1,6 @@
 //! `dsr conform replay`.
 
-use super::chosen::{case, program};
+use super::chosen::{Patience, case};
 use super::error::{ConformError, read};
 use super::look::{status_of, text};
 use crate::output::out;
@@ -26,9 +26,8 @@ pub(super) struct Arguments {
     /// Run the command that this log names
     #[arg(long, value_name = "FILE", conflicts_with = "command", required_unless_present = "command")]
     log: Option<PathBuf>,
-    /// The most seconds for one reply
-    #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=3600))]
-    seconds_max: u64,
+    #[command(flatten)]
+    patience: Patience,
     /// The adapter: a program and its arguments
     #[arg(last = true)]
     command: Vec<String>,
@@ -45,7 +44,7 @@ impl Arguments {
             let what = "the log names no command\n  remedy: name it: `dsr conform replay ID -- COMMAND…`";
             return Err(ConformError::Usage(vec![what.into()]));
         }
-        let mut program = program(&command, self.seconds_max);
+        let mut program = self.patience.program(&command);
         let cases = [case];
         let report = run_watched(&mut program, &cases, &mut Transcript::default());
         out(&format!("\n{}", text(&report, (&cases, &command, &command.join(" ")), &|_| None)));

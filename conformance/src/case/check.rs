@@ -108,7 +108,7 @@ impl<'c> Judged<'c> {
     }
 
     fn step(&mut self, step: &'c Step, replicas: &BTreeSet<&str>) -> Result<(), Wrong> {
-        if let Some(unknown) = replicas_of(step).into_iter().find(|name| !replicas.contains(name)) {
+        if let Some(unknown) = step.replicas().into_iter().find(|name| !replicas.contains(name)) {
             return Err((format!("there is no replica {unknown:?}"), "list it in `replicas`"));
         }
         match step {
@@ -200,30 +200,5 @@ const fn need_of(step: &Step) -> Option<Need> {
         | Step::ExpectBytes { .. }
         | Step::ExpectUndecodable { .. }
         | Step::ExpectUnanswerable { .. } => Some(Need::Profile(Profile::Wire)),
-    }
-}
-
-fn replicas_of(step: &Step) -> Vec<&str> {
-    match step {
-        Step::Mutate { replica, .. }
-        | Step::Deliver { replica, .. }
-        | Step::Restart { replica, .. }
-        | Step::Expect { replica, .. }
-        | Step::ExpectRefused { replica, .. }
-        | Step::ExpectVertex { replica, .. }
-        | Step::ExpectState { replica, .. }
-        | Step::ExpectDigest { replica, .. }
-        | Step::ExpectBytes { of: Encoded::Digest(replica) | Encoded::Fingerprint(replica), .. }
-        | Step::AnswerDigest { from: replica, .. }
-        | Step::ExpectUnanswerable { from: replica, .. } => vec![replica],
-        Step::Answer { from, to, .. } => vec![from, to],
-        Step::ExpectEqual { replicas } => replicas.iter().map(String::as_str).collect(),
-        Step::Group { .. }
-        | Step::Load { .. }
-        | Step::Decode { .. }
-        | Step::ExpectDelta { .. }
-        | Step::ExpectBytes { of: Encoded::Delta(_), .. }
-        | Step::ExpectUnloadable { .. }
-        | Step::ExpectUndecodable { .. } => Vec::new(),
     }
 }

@@ -11,7 +11,7 @@
 //! outside has no arrow.
 
 use super::words::words;
-use crate::case::{Case, Encoded, Step};
+use crate::case::{Case, Step};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -85,28 +85,16 @@ fn sender(step: &Step, senders: &BTreeMap<&str, usize>) -> Option<usize> {
 
 /// A step's sign, and whose columns have it.
 pub(super) fn signs(step: &Step) -> (char, Vec<&str>) {
+    let replicas = step.replicas();
     match step {
-        Step::Mutate { replica, .. } => ('●', vec![replica]),
-        Step::Deliver { replica, .. } => ('◆', vec![replica]),
-        Step::Restart { replica, .. } => ('↻', vec![replica]),
-        Step::Answer { from, .. } | Step::AnswerDigest { from, .. } => ('◇', vec![from]),
-        Step::Expect { replica, .. }
-        | Step::ExpectRefused { replica, .. }
-        | Step::ExpectVertex { replica, .. }
-        | Step::ExpectState { replica, .. }
-        | Step::ExpectDigest { replica, .. }
-        | Step::ExpectUnanswerable { from: replica, .. }
-        | Step::ExpectBytes { of: Encoded::Digest(replica) | Encoded::Fingerprint(replica), .. } => {
-            ('?', vec![replica])
-        }
-        Step::ExpectEqual { replicas } => ('?', replicas.iter().map(String::as_str).collect()),
-        Step::Group { .. }
-        | Step::Load { .. }
-        | Step::Decode { .. }
-        | Step::ExpectDelta { .. }
-        | Step::ExpectBytes { of: Encoded::Delta(_), .. }
-        | Step::ExpectUnloadable { .. }
-        | Step::ExpectUndecodable { .. } => ('○', Vec::new()),
+        // The other one learns of it when the delta arrives.
+        Step::Answer { from, .. } => ('◇', vec![from]),
+        Step::AnswerDigest { .. } => ('◇', replicas),
+        Step::Mutate { .. } => ('●', replicas),
+        Step::Deliver { .. } => ('◆', replicas),
+        Step::Restart { .. } => ('↻', replicas),
+        _ if replicas.is_empty() => ('○', replicas),
+        _ => ('?', replicas),
     }
 }
 

@@ -79,8 +79,11 @@ pub(super) fn clauses<'l>(cases: impl IntoIterator<Item = &'l CaseLine>) -> Vec<
     found.into_iter().map(|(_, _, clause)| clause).collect()
 }
 
-/// The families of some cases, in order.
+/// The families of some cases: what everybody keeps first, what is closest to the bytes last.
 pub(super) fn families<'l>(cases: impl IntoIterator<Item = &'l CaseLine>) -> Vec<String> {
+    const ORDER: [&str; 4] = ["universal", "resolution", "causal", "wire"];
     let names: BTreeSet<&str> = cases.into_iter().map(CaseLine::family).collect();
+    let mut names: Vec<_> = names.into_iter().collect();
+    names.sort_by_key(|name| ORDER.iter().position(|family| family == name).unwrap_or(ORDER.len()));
     names.into_iter().map(String::from).collect()
 }
