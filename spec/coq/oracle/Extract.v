@@ -48,5 +48,6 @@ Extract Inductive String.string => "string" [ """""" "(fun (first, rest) -> Stri
 Extract Constant bytes => "Number.bytes".
 Extract Constant ordered_string => "(fun x y -> let c = String.compare x y in if c < 0 then Lt else if c > 0 then Gt else Eq)".
 
-Extraction "kernel.ml" x_bottom x_join x_delta x_digest x_delta_for x_seen x_dead x_get
-  attempt sight state_fault seen_repairs seen_shown seen_placement seen_stranded shown_writes by_name x_greatest.
+(** What the driver calls. *)
+Extraction "kernel.ml" x_bottom x_join x_greatest x_digest x_delta_for form_minus state_fault
+  attempt sight seen_shown seen_placement seen_stranded seen_repairs shown_writes by_name has_key.

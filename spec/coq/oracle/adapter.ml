@@ -19,7 +19,7 @@ type case = {
 }
 
 let replicas_max = 64
-let no_case () = { words = Forms.no_dictionary; replicas = Hashtbl.create 8; ids = []; deltas = [] }
+let no_case () = { words = Dictionary.none; replicas = Hashtbl.create 8; ids = []; deltas = [] }
 let case = ref (no_case ())
 
 let replica name =
@@ -46,7 +46,7 @@ let delta name =
 let handle_of ids id =
   if is_root id then "root"
   else
-    match List.find_opt (fun (_, known) -> Forms.compare_dots known id = 0) ids with
+    match List.find_opt (fun (_, known) -> Order.compare_dots known id = 0) ids with
     | Some (handle, _) -> handle
     | None -> Ids.dot_text id
 
@@ -71,8 +71,8 @@ let mutate_once author (state, ids, whole) json =
   let ids = ref ids in
   let vertex handle = vertex_of !ids handle in
   let edge json =
-    let plain = { Forms.vertex; edge = (fun _ -> rejected "an edge is named by its ends"); bind = ignore } in
-    match shown_edge state (Forms.key plain json) with
+    let plain = { Mutations.vertex; edge = (fun _ -> rejected "an edge is named by its ends"); bind = ignore } in
+    match shown_edge state (Mutations.key plain json) with
     | Some (id, _) -> id
     | None -> decline ~kind:"UnknownTarget" "refused" "no such edge is shown"
   in
@@ -82,10 +82,10 @@ let mutate_once author (state, ids, whole) json =
     let id = { replica0 = author.me; sequence = Z.succ (x_greatest state author.me) } in
     ids := (handle, id) :: !ids
   in
-  let mutation = Forms.mutation ~extra:[ "as" ] { Forms.vertex; edge; bind } json in
+  let mutation = Mutations.read ~extra:[ "as" ] { Mutations.vertex; edge; bind } json in
   match attempt !case.words state author mutation with
   | Either.Left why ->
-    let kind = Forms.refusal_name why in
+    let kind = Errors.refusal why in
     decline ~kind "refused" "%s" kind
   | Either.Right (delta, after) -> (after, !ids, x_join whole delta)
 
@@ -116,7 +116,7 @@ let hello members =
 let begin_ members =
   ignore (text "case" members);
   let names = List.map Json.string (Json.list (Json.required "replicas" members)) in
-  let words = Option.fold ~none:Forms.no_dictionary ~some:Forms.dictionary (Json.optional "dictionary" members) in
+  let words = Option.fold ~none:Dictionary.none ~some:Dictionary.read (Json.optional "dictionary" members) in
   let begun = { (no_case ()) with words } in
   if List.compare_length_with names replicas_max > 0 then rejected "over %d replicas" replicas_max;
   let add place name =
@@ -177,8 +177,8 @@ let from_outside read =
   | found -> found
   | exception Json.Unreadable why -> decline "refused" "%s" why
   | exception Codec.Undecodable why -> decline "refused" "%s" why
-  | exception Forms.Refused fault ->
-    let kind = Forms.fault_name fault in
+  | exception States.Unsound fault ->
+    let kind = Errors.fault fault in
     decline ~kind "refused" "%s" kind
 
 let commands =
@@ -192,14 +192,14 @@ let commands =
     ("lookup", ([ "replica"; "name" ], lookup));
     ("restart", ([ "replica"; "keeps" ], restart));
     ("answer", ([ "from"; "to" ], resynchronise));
-    ("state", ([ "replica" ], fun members -> shown "state" (Forms.state_json (state_of members))));
-    ("delta", ([ "delta" ], fun members -> shown "state" (Forms.state_json (delta (text "delta" members)))));
-    ("digest", ([ "replica" ], fun members -> shown "digest" (Forms.digest_json (x_digest (state_of members)))));
+    ("state", ([ "replica" ], fun members -> shown "state" (States.to_json (state_of members))));
+    ("delta", ([ "delta" ], fun members -> shown "state" (States.to_json (delta (text "delta" members)))));
+    ("digest", ([ "replica" ], fun members -> shown "digest" (States.digest_json (x_digest (state_of members)))));
     ( "load",
       ( [ "state" ],
         fun members ->
           let given = Json.required "state" members in
-          keep (from_outside (fun () -> Forms.state given)) ) );
+          keep (from_outside (fun () -> States.read given)) ) );
     ("encode", ([ "delta" ], fun members -> bytes (Codec.state_bytes (delta (text "delta" members)))));
     ( "encode_digest",
       ([ "replica" ], fun members -> bytes (Codec.digest_bytes (x_digest (state_of members)))) );

@@ -54,7 +54,7 @@ let index equal item table =
   in
   from 0 table
 
-let same_replica left right = Forms.compare_replicas left right = 0
+let same_replica left right = Order.compare_replicas left right = 0
 
 let write_value buffer value =
   let words bits = List.iter bits value.items in
@@ -89,7 +89,7 @@ let state_bytes state =
     :: List.filter_map (fun anchor -> if is_root anchor then None else Some anchor.replica0) (anchors record)
   in
   let replicas =
-    List.sort_uniq Forms.compare_replicas (List.map fst state.form0 @ List.concat_map anchored state.held)
+    List.sort_uniq Order.compare_replicas (List.map fst state.form0 @ List.concat_map anchored state.held)
   in
   let names =
     List.sort_uniq String.compare (List.concat_map (fun (_, record) -> names_of record) state.held)
@@ -133,7 +133,7 @@ let state_bytes state =
 
 let digest_bytes digest =
   let buffer = Buffer.create 128 in
-  let replicas = List.sort_uniq Forms.compare_replicas (List.map fst (digest.x_context @ digest.x_live)) in
+  let replicas = List.sort_uniq Order.compare_replicas (List.map fst (digest.x_context @ digest.x_live)) in
   begin_ buffer 1 replicas;
   write_runs buffer replicas digest.x_context;
   write_runs buffer replicas digest.x_live;
@@ -222,7 +222,7 @@ let read_replicas reader =
   let replica () = let agent = word reader in { agent; incarnation = word reader } in
   let number = count 3 reader in
   let replicas = times number replica in
-  ascending Forms.compare_replicas "replicas" replicas;
+  ascending Order.compare_replicas "replicas" replicas;
   table replicas
 
 let read_runs ?(most_beyond = max_int) reader replicas =
@@ -333,15 +333,15 @@ let start bytes kind =
 
 let finish reader = if left reader > 0 then undecodable "at byte %d: %d bytes follow the end" reader.at (left reader)
 
-(* A state; raises `Undecodable`, or `Forms.Refused` if it is not well-formed. *)
+(* A state; raises `Undecodable`, or `States.Unsound` if it is not well-formed. *)
 let state bytes =
   let reader = start bytes 0 in
   let replicas = read_replicas reader in
-  let form0 = read_runs ~most_beyond:Forms.cloud_runs_max reader replicas in
+  let form0 = read_runs ~most_beyond:Dots.cloud_runs_max reader replicas in
   let names = read_names reader in
   let total = ref 0 in
   let records replica0 =
-    let number = count ~most:(Forms.records_max - !total) 5 reader in
+    let number = count ~most:(Dots.records_max - !total) 5 reader in
     total := !total + number;
     let least = ref Z.one in
     let record () =
@@ -356,12 +356,12 @@ let state bytes =
   finish reader;
   check_used "replica" replicas;
   check_used "name" names;
-  Forms.sound { held; form0 }
+  States.sound { held; form0 }
 
 let digest bytes =
   let reader = start bytes 1 in
   let replicas = read_replicas reader in
-  let x_context = read_runs ~most_beyond:Forms.cloud_runs_max reader replicas in
+  let x_context = read_runs ~most_beyond:Dots.cloud_runs_max reader replicas in
   let x_live = read_runs reader replicas in
   finish reader;
   check_used "replica" replicas;
@@ -369,7 +369,7 @@ let digest bytes =
   if unseen <> [] then undecodable "live dots are not in the context";
   let add live (first, last) = Z.add live (Z.succ (Z.sub last first)) in
   let live = List.fold_left (fun live (_, runs) -> List.fold_left add live runs) Z.zero x_live in
-  if Z.gt live (Z.of_int Forms.records_max) then undecodable "too many live dots";
+  if Z.gt live (Z.of_int Dots.records_max) then undecodable "too many live dots";
   { x_context; x_live }
 
 (* ** Hexadecimal *)

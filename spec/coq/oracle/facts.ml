@@ -3,12 +3,12 @@
 open Kernel
 module Z = Number.Z
 
-let words = ref Forms.no_dictionary
+let words = ref Dictionary.none
 
 (* How questions name vertices and edges: by their dots. *)
 let names =
   {
-    Forms.vertex = Ids.vertex;
+    Mutations.vertex = Ids.vertex;
     edge = (fun json -> Ids.dot (Json.string json));
     bind = ignore;
   }
@@ -31,7 +31,7 @@ let answer line =
   let question, rest = word line in
   match question with
   | "dictionary" ->
-    words := Forms.dictionary (Json.read rest);
+    words := Dictionary.read (Json.read rest);
     "ok"
   | "join" -> (
     match List.map state (String.split_on_char ' ' rest) with
@@ -40,9 +40,9 @@ let answer line =
   | "delta" -> (
     let who, rest = word rest in
     let before, mutation = word rest in
-    let mutation = Forms.mutation ~extra:[ "external_id" ] names (Json.read mutation) in
+    let mutation = Mutations.read ~extra:[ "external_id" ] names (Json.read mutation) in
     match attempt !words (state before) (author who) mutation with
-    | Either.Left why -> "refused " ^ Forms.refusal_name why
+    | Either.Left why -> "refused " ^ Errors.refusal why
     | Either.Right (delta, after) -> String.concat " " [ "made"; hex delta; hex after ])
   | "view" -> Seen.text !words (state rest)
   | "digest" ->
@@ -54,7 +54,7 @@ let answer line =
   | "accepts" -> (
     match Codec.state (Codec.of_hex rest) with
     | _ -> "yes"
-    | exception (Codec.Undecodable _ | Forms.Refused _) -> "no")
+    | exception (Codec.Undecodable _ | States.Unsound _) -> "no")
   | _ -> Json.unreadable "%S is no question" question
 
 let reply line =
@@ -62,4 +62,4 @@ let reply line =
   | answer -> answer
   | exception Json.Unreadable why -> "error " ^ why
   | exception Codec.Undecodable why -> "error no state: " ^ why
-  | exception Forms.Refused fault -> "error no well-formed state: " ^ Forms.fault_name fault
+  | exception States.Unsound fault -> "error no well-formed state: " ^ Errors.fault fault

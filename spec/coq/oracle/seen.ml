@@ -27,17 +27,17 @@ let registers words state =
   in
   let order left right =
     let target, name, (stamp, dot) = place left and target', name', (stamp', dot') = place right in
-    match Forms.compare_dots target target' with
+    match Order.compare_dots target target' with
     | 0 -> (
       match String.compare name name' with
       | 0 -> (
-        match Number.Z.compare stamp' stamp with 0 -> Forms.compare_dots dot' dot | order -> order)
+        match Number.Z.compare stamp' stamp with 0 -> Order.compare_dots dot' dot | order -> order)
       | order -> order)
     | order -> order
   in
   let is_one left right =
     let target, name, _ = place left and target', name', _ = place right in
-    Forms.compare_dots target target' = 0 && String.equal name name'
+    Order.compare_dots target target' = 0 && String.equal name name'
   in
   let group write = function
     | (other :: _ as register) :: registers when is_one write other -> (write :: register) :: registers
@@ -67,7 +67,7 @@ let text words state =
     in
     Json.List [ dot id; place; Json.Bool (seen_stranded sight id); found ]
   in
-  let edges = List.sort Forms.compare_dots (List.map fst (seen_shown sight)) in
+  let edges = List.sort Order.compare_dots (List.map fst (seen_shown sight)) in
   let buffer = Buffer.create 1024 in
   Json.write buffer
     (Json.Object
@@ -99,7 +99,7 @@ let json handle words state =
   in
   let winners = List.filter_map winner (registers words shade) in
   let attributes id =
-    match List.filter (fun (target, _) -> Forms.compare_dots target id = 0) winners with
+    match List.filter (fun (target, _) -> Order.compare_dots target id = 0) winners with
     | [] -> []
     | own -> [ ("attributes", Json.Object (List.map snd own)) ]
   in
