@@ -8,6 +8,7 @@ use dsr_model::job::Job;
 use dsr_model::suite::{FLAT_FOCUS, Subject};
 use serde_json::json;
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 /// The jobs of `dsr check`, and walks.
@@ -50,7 +51,8 @@ fn written() -> String {
             clauses.into_iter().map(|(clause, what)| json!({ "clause": clause, "says": what })).collect(),
         );
         let comma = if at == last { "" } else { "," };
-        text += &format!(
+        let _ = write!(
+            text,
             "    {{\n      \"layer\": {},\n      \"runs\": [\n{runs}\n      ],\n      \"judges\": [\n{clauses}\n      ]\n    \
              }}{comma}\n",
             json!(layer)

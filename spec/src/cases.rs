@@ -30,12 +30,11 @@ pub fn count_cases(files: &[Source], clauses: &Clauses, gaps: &mut Vec<Gap>) -> 
         for case in json["cases"].as_array().into_iter().flatten() {
             cases.total += 1;
             for cited in case["spec"].as_array().into_iter().flatten().filter_map(Value::as_str) {
-                match cited.parse::<ClauseId>().ok().filter(|id| clauses.get(id).is_some()) {
-                    Some(id) => *cases.citing.entry(id).or_default() += 1,
-                    None => {
-                        let place = Place { path: file.path.clone(), line: 1 };
-                        gaps.push(Gap::NoList { text: cited.into(), place });
-                    }
+                if let Some(id) = cited.parse::<ClauseId>().ok().filter(|id| clauses.get(id).is_some()) {
+                    *cases.citing.entry(id).or_default() += 1;
+                } else {
+                    let place = Place { path: file.path.clone(), line: 1 };
+                    gaps.push(Gap::NoList { text: cited.into(), place });
                 }
             }
         }

@@ -5,6 +5,7 @@ use crate::list::{collapsed, named};
 use crate::text::text_in;
 use crate::{ClauseId, Marker};
 use std::collections::BTreeSet;
+use std::fmt::Write as _;
 
 /// A claim of the chapter on claims.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -50,7 +51,7 @@ impl Claim {
             format!("**{}** as a whole (no more is known of {})", weakest.words(), list(weakest));
         for grade in Grade::ALL.into_iter().rev().filter(|grade| *grade < weakest) {
             if self.of_grade(evidence, grade).next().is_some() {
-                status += &format!("; {}: {}", grade.words(), list(grade));
+                let _ = write!(status, "; {}: {}", grade.words(), list(grade));
             }
         }
         status
@@ -102,7 +103,7 @@ pub fn claims(evidence: &Evidence) -> Vec<Claim> {
         let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
         let ids = named(&text);
         let sentence = ids.first().and_then(|first| text.split(&first.to_string()).next()).unwrap_or(&text);
-        let sentence = sentence.trim().trim_end_matches(":").to_owned();
+        let sentence = sentence.trim().trim_end_matches(':').to_owned();
         let is_assumed = |id: &ClauseId| {
             evidence.trace.clauses.get(id).is_some_and(|clause| clause.marker == Some(Marker::Assumption))
         };
