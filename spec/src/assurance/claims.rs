@@ -1,17 +1,17 @@
 //! The tables of claims, long and short.
 
 use super::{cell, counted, shown};
-use crate::ClauseId;
 use crate::claim::{Claim, claims};
-use crate::evidence::Evidence;
+use crate::evidence::{Evidence, Grade};
 use crate::list::collapsed;
+use crate::{ClauseId, Theorem};
 use std::fmt::Write as _;
 
 /// For the README: claim, status, command.
 pub(super) fn short(evidence: &Evidence) -> String {
     let mut text = String::from("| claim | | status | how to see it |\n|---|---|---|---|\n");
     for claim in claims(evidence) {
-        let status = [claim.status(evidence), checked(&claim, evidence), tested(&claim, evidence)];
+        let status = [status(&claim, evidence), checked(&claim, evidence), tested(&claim, evidence)];
         let status: Vec<String> = status.into_iter().filter(|part| !part.is_empty()).collect();
         let _ = writeln!(
             text,
@@ -52,8 +52,23 @@ pub(super) fn long(evidence: &Evidence) -> String {
     text
 }
 
+/// Status, and the theorems that are the claim itself.
+fn status(claim: &Claim, evidence: &Evidence) -> String {
+    let (status, theorems) = (claim.status(evidence), theorems(claim, evidence));
+    match (theorems.is_empty(), claim.grade(evidence)) {
+        (true, _) => status,
+        (false, Grade::Proved) => format!("{status} ({theorems})"),
+        (false, _) if theorems.starts_with("`Claims.") => {
+            format!("{status}; the sentence itself is proved ({theorems})")
+        }
+        (false, _) => format!("{status}; theorems on it: {theorems}"),
+    }
+}
+
+/// The theorems that cite the claim: those of the file on claims, or else others.
 fn theorems(claim: &Claim, evidence: &Evidence) -> String {
-    let about = evidence.theorems.iter().filter(|theorem| theorem.clauses.contains(&claim.id));
+    let is_about = |theorem: &&Theorem| !theorem.is_example && theorem.clauses.contains(&claim.id);
+    let about = evidence.theorems.iter().filter(is_about);
     let (own, others): (Vec<_>, Vec<_>) = about.partition(|theorem| theorem.name.starts_with("Claims."));
     let theorems = if own.is_empty() { others } else { own };
     theorems.iter().map(|theorem| format!("`{}`", theorem.name)).collect::<Vec<_>>().join(", ")
