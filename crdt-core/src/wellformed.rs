@@ -1,4 +1,5 @@
-//! What every state must be before it may be joined: join is associative only on well-formed states.
+//! What every state must be before it may be joined. Of the laws of join idempotence needs it, and the neutral
+//! element: a state that is not closed is not its own join.
 
 use crate::dot::{Dot, ReplicaId};
 use crate::limits;

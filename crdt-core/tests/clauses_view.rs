@@ -8,8 +8,8 @@ use clauses_common::history::{history, part, parts};
 use clauses_common::*;
 use dsr_core::invariant::{check_repairs, check_view};
 use dsr_core::{
-    AttributeMap, Dictionary, Dot, EdgeId, Mutation, MutationKind, Placement, RT, Record, Repair, ReplicaId,
-    Rule, State, Value, ValueType, Vertex, VertexId, delta_for, digest, view,
+    AttributeMap, Dictionary, Dot, Edge, EdgeId, Mutation, MutationKind, Placement, RT, Record, Repair,
+    ReplicaId, Rule, State, Value, ValueType, Vertex, VertexId, Write, delta_for, digest, view,
 };
 use std::collections::BTreeMap;
 
@@ -55,6 +55,29 @@ fn oracle_what_waits_is_neither_shown_nor_reported() {
     one.state.join(&two.state);
     assert!(one.shows(lamp, "near", ROOT));
     assert_eq!(one.value(near, "since"), Some(Value::Int(1)));
+}
+
+/// No well-formed state has one, but a view is asked of any. [spec: VIEW-1.1] [spec: INV-4]
+#[test]
+fn oracle_an_edge_from_a_vertex_to_itself_is_neither_shown_nor_reported() {
+    let mut one = Peer::new(1);
+    let lamp = one.child(ROOT, "lamp");
+    let before = one.state.clone();
+    let dots = [50, 51, 52, 53].map(|sequence| Dot::new(ReplicaId::agent(7), sequence));
+    let loop_at = |vertex: VertexId, label: &str| {
+        Record::Edge(Edge { from: vertex, to: vertex, label: label.into(), stamp: 9 })
+    };
+    let write =
+        Write { target: dots[1], name: "since".into(), value: 1_i32.into(), timestamp_ns: 0, stamp: 9 };
+    let looped = [loop_at(lamp, RT), loop_at(lamp, "near"), loop_at(ROOT, "near"), Record::Write(write)];
+    let state = before.joined(&State::assemble(dots.into_iter().zip(looped), dots.into_iter().collect()));
+    assert_eq!(state.len(), before.len() + 4);
+    let (shown, plain) = (view(&state, &one.dictionary), view(&before, &one.dictionary));
+    assert_eq!(shown.edges(), plain.edges());
+    assert_eq!(shown.placement(lamp), plain.placement(lamp));
+    assert_eq!((shown.writes().len(), shown.repairs().len()), (plain.writes().len(), 0));
+    check_view(&shown).unwrap();
+    check_repairs(&shown).unwrap();
 }
 
 /// [spec: VIEW-2] [spec: STAMP-2] [spec: STAMP-4]

@@ -5,7 +5,7 @@ use crate::histories::HistoryRun;
 use crate::progress::Progress;
 use crate::scenario::{self, Scenario};
 use crate::schedules::{ScheduleBound, ScheduleRun, check_reduction};
-use crate::semantics::Semantics;
+use crate::semantics::{Clause, Semantics};
 use crate::verdict::{Evidence, PropertyKind, PropertyReport, RunReport, RunTrace, StateCounts, Verdict};
 use crate::walks::WalkRun;
 use std::sync::Arc;
@@ -16,6 +16,8 @@ pub trait Job: Send + Sync {
     fn name(&self) -> String;
     /// Its layer in reports.
     fn layer(&self) -> &'static str;
+    /// What it judges, whatever it finds.
+    fn clauses(&self) -> Vec<Clause>;
     /// Runs to the end or to a limit of `progress`.
     fn run(&self, progress: &Arc<Progress>) -> RunReport;
 }
@@ -27,6 +29,10 @@ impl<S: Semantics> Job for HistoryRun<S> {
 
     fn layer(&self) -> &'static str {
         "L1"
+    }
+
+    fn clauses(&self) -> Vec<Clause> {
+        Self::clauses(self)
     }
 
     fn run(&self, progress: &Arc<Progress>) -> RunReport {
@@ -43,6 +49,10 @@ impl<S: Semantics> Job for ScheduleRun<S> {
         "L2"
     }
 
+    fn clauses(&self) -> Vec<Clause> {
+        Self::clauses(self)
+    }
+
     fn run(&self, progress: &Arc<Progress>) -> RunReport {
         Self::run(self, progress)
     }
@@ -57,10 +67,18 @@ impl<S: Semantics> Job for WalkRun<S> {
         "L3"
     }
 
+    fn clauses(&self) -> Vec<Clause> {
+        Self::clauses(self)
+    }
+
     fn run(&self, progress: &Arc<Progress>) -> RunReport {
         Self::run(self, progress)
     }
 }
+
+/// What histories against schedules decide.
+const REDUCTION: Clause =
+    Clause { id: "CHECK-7", claim: "", what: "histories reach what schedules do, and judge all of it" };
 
 /// Histories against schedules: the reduction that L1 relies on. `[spec: CHECK-7]`
 #[derive(Clone, Debug)]
@@ -82,13 +100,16 @@ impl<S: Semantics> Job for ReductionRun<S> {
         "L1 = L2"
     }
 
+    fn clauses(&self) -> Vec<Clause> {
+        vec![REDUCTION]
+    }
+
     fn run(&self, progress: &Arc<Progress>) -> RunReport {
         let outcome = check_reduction(&self.semantics, self.bound);
         let mut run = RunReport::new(self.name(), self.layer(), self.semantics.name(), progress.seconds());
         run.replicas = self.bound.everybody();
         run.mutations = self.bound.mutations;
-        let mut property =
-            PropertyReport::always("CHECK-7", "", "histories reach what schedules do, and judge all of it");
+        let mut property = PropertyReport::always(REDUCTION.id, REDUCTION.claim, REDUCTION.what);
         match outcome {
             Ok(reduction) => {
                 run.states = StateCounts {
@@ -130,6 +151,10 @@ impl<S: Algebra> Job for AlgebraRun<S> {
 
     fn layer(&self) -> &'static str {
         "L0"
+    }
+
+    fn clauses(&self) -> Vec<Clause> {
+        algebra::clauses::<S>()
     }
 
     fn run(&self, progress: &Arc<Progress>) -> RunReport {
@@ -204,6 +229,10 @@ impl Job for ScenarioRun {
 
     fn layer(&self) -> &'static str {
         "scenario"
+    }
+
+    fn clauses(&self) -> Vec<Clause> {
+        scenario::clauses()
     }
 
     fn run(&self, progress: &Arc<Progress>) -> RunReport {

@@ -420,6 +420,9 @@ pub const WHOLE: [Clause; 23] = [
     clause("MUT-4.2", "V2", "no mutation strands a vertex that its author sees"),
 ];
 
+/// What is judged where mutations are grouped.
+pub(crate) const GROUPS: Clause = clause("MUT-0.4", "L2", "a group of mutations is the join of its deltas");
+
 /// When what is shown can depend on which of two deltas has the greater stamp.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Competition {

@@ -4,7 +4,8 @@ use crate::checked::alphabet::{ATTRIBUTE, Alphabet};
 use crate::checked::{Act, Checked};
 use crate::focus::{self, FocusError};
 use crate::histories::{Bound, HistoryRun};
-use crate::job::{Job, ReductionRun};
+use crate::job::{AlgebraRun, Job, ReductionRun, ScenarioRun};
+use crate::scenario::{Scenario, ScenarioError, shipped};
 use crate::schedules::{Restricted, ScheduleBound, ScheduleRun};
 use crate::semantics::Semantics;
 use crate::verdict::RunReport;
@@ -14,6 +15,22 @@ use std::sync::Arc;
 
 /// The vertices of the embedded flat that searches focus on: each focus is the first few of them.
 pub const FLAT_FOCUS: [&str; 4] = ["bedroom", "person", "bed", "robot"];
+
+/// Records of each family in L0.
+const RECORDS: [usize; 2] = [4, 3];
+/// The same with `--deep`.
+const RECORDS_DEEP: [usize; 1] = [5];
+
+/// Why a suite cannot be put together.
+#[derive(Debug, thiserror::Error)]
+pub enum SuiteError {
+    /// The names of the focus.
+    #[error(transparent)]
+    Focus(#[from] FocusError),
+    /// A scenario that ships.
+    #[error(transparent)]
+    Scenario(#[from] ScenarioError),
+}
 
 /// A graph, and the vertices in it that replicas touch.
 #[derive(Clone, Debug)]
@@ -27,6 +44,30 @@ pub struct Subject<'a> {
 }
 
 impl Subject<'_> {
+    /// The runs of `dsr check`, or of `dsr check --deep`, whose layer [`Job::layer`] is wanted: the longest
+    /// first, so that all cores are busy to the end. Walks are never among them: a sample is bounded, and would
+    /// make the whole suite so. `[spec: CHECK-13]`
+    pub fn suite(
+        &self,
+        deep: bool,
+        is_wanted: impl Fn(&str) -> bool,
+    ) -> Result<Vec<Box<dyn Job>>, SuiteError> {
+        let mut jobs = self.schedules()?;
+        let histories = if deep { self.deep_histories()? } else { self.default_histories()? };
+        jobs.extend(histories.into_iter().map(boxed));
+        let semantics =
+            self.histories(RECORDS_FOCUS, Bound { replicas: 2, mutations: 1 }, &K::ALL)?.semantics;
+        let records: &[usize] = if deep { &RECORDS_DEEP } else { &RECORDS };
+        jobs.extend(
+            records.iter().map(|&records| boxed(AlgebraRun { semantics: semantics.clone(), records })),
+        );
+        for (file, text) in shipped() {
+            jobs.push(boxed(ScenarioRun { scenario: Scenario::read(text, file)? }));
+        }
+        jobs.retain(|job| is_wanted(job.layer()));
+        Ok(jobs)
+    }
+
     /// A run of L1 on the first `focus` vertices, with some kinds of mutation.
     pub fn histories(
         &self,
@@ -152,6 +193,13 @@ impl Subject<'_> {
 
 /// A mutation goes to each replica, in the worst case with a duplicate or an answer for each.
 const EVENTS_PER_COPY: usize = 2;
+
+fn boxed(job: impl Job + 'static) -> Box<dyn Job> {
+    Box::new(job)
+}
+
+/// L0 takes its records from families of its own; the semantics is there for its dictionary.
+const RECORDS_FOCUS: usize = 2;
 
 /// Schedules are many: L2 looks at this many vertices.
 const SCHEDULE_FOCUS: usize = 2;

@@ -1,5 +1,6 @@
 //! Tags in the comments of Rust files.
 
+use crate::witness::function_of;
 use crate::{ClauseId, Fault, Place, Source, TestModules, test_lines};
 
 /// What a tag says of the clause that it names.
@@ -113,14 +114,4 @@ fn function_at(lines: &[&str], line: usize) -> Option<String> {
     } else {
         lines[..line].iter().rev().find_map(|text| function_of(text))
     }
-}
-
-fn function_of(line: &str) -> Option<String> {
-    let code = line.trim_start();
-    if code.starts_with("//") {
-        return None;
-    }
-    let (_, rest) = code.strip_prefix("fn ").map(|rest| ("", rest)).or_else(|| code.split_once(" fn "))?;
-    let name: String = rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
-    (!name.is_empty()).then_some(name)
 }

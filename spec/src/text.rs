@@ -28,7 +28,7 @@ pub fn clause_text(id: &ClauseId) -> Option<(&'static str, String)> {
 }
 
 /// From the head of the clause to the next head or heading.
-fn text_in(text: &str, id: &ClauseId) -> Option<String> {
+pub(crate) fn text_in(text: &str, id: &ClauseId) -> Option<String> {
     let mut fenced = false;
     let mut found: Option<Vec<&str>> = None;
     for line in text.lines() {

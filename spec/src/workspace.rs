@@ -1,6 +1,10 @@
 //! Reads the files of the workspace.
 
 use crate::Source;
+use crate::cases::CORPUS_PATH;
+use crate::evidence::Documents;
+use crate::judged::JUDGED_PATH;
+use crate::proof::{LEFT_OUT_PATH, THEOREMS_PATH};
 use std::fmt;
 use std::fs;
 use std::io;
@@ -51,11 +55,35 @@ pub fn read_inputs(root: &Path) -> Result<Inputs, ReadError> {
         for folder in ["src", "tests"] {
             let folder = root.join(member).join(folder);
             if folder.is_dir() {
-                read_rust(root, &folder, &mut inputs.rust)?;
+                read_all(root, &folder, "rs", &mut inputs.rust)?;
             }
         }
     }
     Ok(inputs)
+}
+
+/// Reads what speaks for clauses besides the code: theorems, the checker's own list, the corpus, fuzz targets.
+pub fn read_documents(root: &Path) -> Result<Documents, ReadError> {
+    let mut documents = Documents {
+        theorems: read_file(root, THEOREMS_PATH)?,
+        left_out: read_file(root, LEFT_OUT_PATH)?,
+        judged: read_file(root, JUDGED_PATH)?,
+        ..Documents::default()
+    };
+    read_all(root, &root.join(CORPUS_PATH), "json", &mut documents.corpus)?;
+    let fuzz = root.join(FUZZ_PATH);
+    if fuzz.is_dir() {
+        read_all(root, &fuzz, "rs", &mut documents.fuzz)?;
+    }
+    Ok(documents)
+}
+
+/// Where fuzz targets are, if there are any.
+const FUZZ_PATH: &str = "fuzz/fuzz_targets";
+
+/// Reads one file by its path from the workspace root.
+pub fn read_file(root: &Path, path: &str) -> Result<Source, ReadError> {
+    read(root, &root.join(path))
 }
 
 /// The quoted paths of `members = […]`.
@@ -68,11 +96,11 @@ fn members(manifest: &str) -> Vec<String> {
     quoted.map(String::from).collect()
 }
 
-fn read_rust(root: &Path, folder: &Path, into: &mut Vec<Source>) -> Result<(), ReadError> {
+fn read_all(root: &Path, folder: &Path, ending: &str, into: &mut Vec<Source>) -> Result<(), ReadError> {
     for path in entries(folder)? {
         if path.is_dir() {
-            read_rust(root, &path, into)?;
-        } else if path.extension().is_some_and(|end| end == "rs") {
+            read_all(root, &path, ending, into)?;
+        } else if path.extension().is_some_and(|end| end == ending) {
             into.push(read(root, &path)?);
         }
     }

@@ -5,13 +5,12 @@ use crate::input::{self, InputError};
 use dsr_core::scene::{FLAT, Scene, Strictness};
 use dsr_core::{Dictionary, MutationKind};
 use dsr_model::histories::Bound;
-use dsr_model::job::{AlgebraRun, Job, ScenarioRun};
+use dsr_model::job::{Job, ScenarioRun};
 use dsr_model::published::suite as published_suite;
 use dsr_model::published::{Stamps, Variant, Workers};
-use dsr_model::scenario::{Scenario, shipped};
+use dsr_model::scenario::Scenario;
 use dsr_model::suite::{FLAT_FOCUS, Subject};
 use std::path::Path;
-use std::sync::Arc;
 
 /// Replicas touch this many vertices of a scene unless `--focus` names them.
 const FOCUS_DEFAULT: usize = 2;
@@ -85,15 +84,6 @@ fn suite(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
     let scene = Scene::read(FLAT, &dictionary, Strictness::Strict).map_err(|error| error.to_string())?.scene;
     let subject = Subject { state: &scene.state, dictionary: &dictionary, names: &FLAT_FOCUS };
     let mut jobs: Vec<Box<dyn Job>> = Vec::new();
-    if wanted(Layer::L2) {
-        jobs.extend(subject.schedules().map_err(|error| error.to_string())?);
-    }
-    if wanted(Layer::L1) {
-        let histories = if arguments.deep { subject.deep_histories() } else { subject.default_histories() };
-        for run in histories.map_err(|error| error.to_string())? {
-            jobs.push(Box::new(run));
-        }
-    }
     // Never by default: a sample is bounded, and would make the whole suite so.
     if arguments.layer.contains(&Layer::Walks) {
         let (walks, deep) = (if arguments.deep { WALKS_DEEP } else { WALKS }, arguments.deep);
@@ -102,21 +92,15 @@ fn suite(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
             jobs.push(Box::new(run));
         }
     }
-    if wanted(Layer::L0) {
-        let semantics =
-            subject.histories(FOCUS_DEFAULT, Bound { replicas: 2, mutations: 1 }, &MutationKind::ALL);
-        let semantics = semantics.map_err(|error| error.to_string())?.semantics;
-        let records = if arguments.deep { vec![5] } else { vec![4, 3] };
-        for records in records {
-            jobs.push(Box::new(AlgebraRun { semantics: Arc::clone(&semantics), records }));
-        }
-    }
-    if wanted(Layer::Scenario) {
-        for (file, text) in shipped() {
-            let scenario = Scenario::read(text, file).map_err(|error| error.to_string())?;
-            jobs.push(Box::new(ScenarioRun { scenario }));
-        }
-    }
+    let is_wanted = |layer: &str| {
+        wanted(match layer {
+            "L0" => Layer::L0,
+            "L1" => Layer::L1,
+            "scenario" => Layer::Scenario,
+            _ => Layer::L2,
+        })
+    };
+    jobs.extend(subject.suite(arguments.deep, is_wanted).map_err(|error| error.to_string())?);
     Ok(jobs)
 }
 

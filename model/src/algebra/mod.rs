@@ -18,7 +18,7 @@ mod space;
 pub use report::{Example, LawReport, Quantifier, Report};
 
 use crate::checked::Checked;
-use crate::semantics::Semantics;
+use crate::semantics::{Clause, Semantics};
 use dsr_core::{Delta, Dot, Record, State};
 use laws::laws;
 use report::Tally;
@@ -72,6 +72,12 @@ pub fn core_universe(records: usize) -> Vec<Family<State>> {
             Family { name, records, all, closed }
         })
         .collect()
+}
+
+/// The laws, by the clauses that state them: [`run`] checks each.
+pub fn clauses<S: Algebra>() -> Vec<Clause> {
+    let laws = laws::<S>().into_iter();
+    laws.map(|(law, _)| Clause { id: law.clause, claim: "", what: law.says }).collect()
 }
 
 /// Checks every law on every family of `records` records. `[spec: CHECK-2]`

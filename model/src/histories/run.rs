@@ -70,7 +70,8 @@ impl<S: Semantics> HistoryRun<S> {
         found.report(findings, run).with_trace(trace)
     }
 
-    fn clauses(&self) -> Vec<Clause> {
+    /// What is judged: what the semantics has judged, and what this layer adds.
+    pub fn clauses(&self) -> Vec<Clause> {
         self.semantics.clauses().into_iter().chain([SHAPES]).collect()
     }
 

@@ -66,12 +66,18 @@ pub use trace::{ScenarioStep, Trace};
 
 use crate::checked::Checked;
 use crate::checked::alphabet::Alphabet;
+use crate::semantics::{Clause, GROUPS, WHOLE};
 use dsr_core::{Dictionary, State, VertexId};
 use predicate::Atoms;
 use property::Property;
 use script::{Conduct, Replica};
 use std::path::Path;
 use std::sync::Arc;
+
+/// What is judged besides a scenario's own properties: as in L1, and of groups; agents do not resynchronise.
+pub fn clauses() -> Vec<Clause> {
+    WHOLE.into_iter().filter(|clause| clause.id != "SYNC-3").chain([GROUPS]).collect()
+}
 
 /// A scenario that was read. `[spec: SCEN-1]`
 #[derive(Clone, Debug)]

@@ -63,7 +63,8 @@ impl<S: Semantics> ScheduleRun<S> {
         report.with_trace(trace)
     }
 
-    fn clauses(&self) -> Vec<Clause> {
+    /// What is judged: what the semantics has judged, and what this layer adds.
+    pub fn clauses(&self) -> Vec<Clause> {
         let own = QUIESCENCE.into_iter().filter(|clause| self.semantics.judges(clause.id));
         // In every order this layer delivers only where the order is free.
         let free = self.semantics.delivery() == Delivery::Any;

@@ -3,7 +3,7 @@
 use super::{Counts, Walk, Walked};
 use crate::course::{self, Course, Outcome};
 use crate::progress::Progress;
-use crate::semantics::{Clause, Semantics};
+use crate::semantics::{Clause, GROUPS, Semantics};
 use crate::shrink::{Shrinker, Shrunk, TRIES_MAX, breaks_as};
 use crate::trace::{CannotHappen, Trace, of_course};
 use crate::verdict::{Evidence, PropertyKind, PropertyReport, RunReport, StateCounts, Verdict};
@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 /// What is judged besides what the semantics judges.
 const BESIDES: [Clause; 3] = [
-    Clause { id: "MUT-0.4", claim: "L2", what: "a group of mutations is the join of its deltas" },
+    GROUPS,
     Clause { id: "JOIN-5", claim: "L3", what: "at the end, delivering what is missing makes all equal" },
     Clause { id: "SYNC-5", claim: "L3", what: "at the end, resynchronisation makes all equal" },
 ];
@@ -80,6 +80,11 @@ fn finding<S: Semantics>(
 }
 
 impl<S: Semantics> WalkRun<S> {
+    /// What is judged: what the semantics has judged, and what this layer adds.
+    pub fn clauses(&self) -> Vec<Clause> {
+        self.semantics.clauses().into_iter().chain(BESIDES).collect()
+    }
+
     /// Walks and reports. The verdict is *bounded* at best: a walk is no search.
     pub fn run(&self, progress: &Arc<Progress>) -> RunReport {
         let mut counts = Counts::default();
@@ -108,10 +113,8 @@ impl<S: Semantics> WalkRun<S> {
     fn report(&self, run: RunReport, counts: &Counts, found: Option<&WalkFinding<S>>) -> RunReport {
         let broken = found.and_then(|found| found.outcome.clause());
         let mut properties: Vec<PropertyReport> = self
-            .semantics
             .clauses()
             .iter()
-            .chain(&BESIDES)
             .map(|clause| PropertyReport {
                 verdict: if broken == Some(clause.id) { Verdict::Violated } else { Verdict::Bounded },
                 ..PropertyReport::always(clause.id, clause.claim, clause.what)

@@ -6,6 +6,7 @@ use crate::job::Job;
 use crate::progress::Progress;
 use crate::published::{NodeId, Operation, Variant};
 use crate::schedules::{Restricted, ScheduleBound, ScheduleRun};
+use crate::semantics::Clause;
 use crate::verdict::{RunReport, StateCounts, Verdict};
 use std::sync::Arc;
 
@@ -146,6 +147,11 @@ impl Job for ClauseRun {
 
     fn layer(&self) -> &'static str {
         if self.clause == "JOIN-3" { "L1" } else { "L2" }
+    }
+
+    fn clauses(&self) -> Vec<Clause> {
+        let all = self.rungs().into_iter().next().map_or_else(Vec::new, |rung| rung.clauses());
+        all.into_iter().filter(|clause| clause.id == self.clause).collect()
     }
 
     fn run(&self, progress: &Arc<Progress>) -> RunReport {
