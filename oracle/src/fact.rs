@@ -8,7 +8,7 @@ pub use question::{Kind, Question, hex, made, refused};
 pub use read::{Unreadable, read};
 pub use view_text::view_text;
 
-use dsr_core::{Author, Dictionary, Mutation, State, digest};
+use dsr_core::{Author, Dictionary, Digest, Mutation, State, digest};
 
 /// The two facts of a state: what it shows, and what of it others are told. `[spec: ORACLE-2]`
 pub fn of_state(state: &State) -> [Question; 2] {
@@ -17,7 +17,12 @@ pub fn of_state(state: &State) -> [Question; 2] {
 
 /// The fact of an answer to a digest.
 pub fn of_answer(state: &State, theirs: &State) -> Question {
-    Question::Answer { state: state.clone(), digest: digest(theirs) }
+    of_answer_to(state, &digest(theirs))
+}
+
+/// The same, where the digest has come from somewhere.
+pub fn of_answer_to(state: &State, theirs: &Digest) -> Question {
+    Question::Answer { state: state.clone(), digest: theirs.clone() }
 }
 
 /// The fact of a mutation: its delta and the state after it, or why it is refused.

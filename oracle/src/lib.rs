@@ -24,5 +24,6 @@ pub mod fact;
 pub mod flawed;
 pub mod histories;
 pub mod program;
+pub mod random;
 
 pub mod verdict;

@@ -286,11 +286,18 @@ pub(crate) fn joined(lines: &[String]) -> Vec<u8> {
     text
 }
 
-/// The beginning of a line.
+/// A line for people: long runs of digits shortened in their middle, and nothing that upsets a terminal.
 pub(crate) fn excerpt(line: &str) -> String {
-    const CHARACTERS_MAX: usize = 300;
-    let start: String = line.chars().take(CHARACTERS_MAX).collect();
-    if start.len() < line.len() { format!("{start:?}…") } else { format!("{start:?}") }
+    const CHARACTERS_MAX: usize = 400;
+    const DIGITS_MAX: usize = 40;
+    let words = line.split(' ').map(|word| {
+        let is_digits = word.len() > DIGITS_MAX && word.bytes().all(|byte| byte.is_ascii_hexdigit());
+        if is_digits { format!("{}…({} bytes)", &word[..DIGITS_MAX], word.len() / 2) } else { word.into() }
+    });
+    let text = words.collect::<Vec<String>>().join(" ");
+    let plain = text.chars().map(|character| if character.is_control() { '\u{fffd}' } else { character });
+    let start: String = plain.take(CHARACTERS_MAX).collect();
+    if start.len() < text.len() { start + "…" } else { start }
 }
 
 fn write_all(mut stdin: impl Write, lines: &Receiver<Vec<u8>>) {
