@@ -221,7 +221,12 @@ pub trait Semantics: Debug + Send + Sync + 'static {
     }
 
     /// Judges an answer to a digest: what must hold between who answers, who is answered, and the delta.
-    fn judge_repair(&self, ours: &Self::State, theirs: &Self::State, delta: &Self::Delta) -> Result<(), Breach> {
+    fn judge_repair(
+        &self,
+        ours: &Self::State,
+        theirs: &Self::State,
+        delta: &Self::Delta,
+    ) -> Result<(), Breach> {
         let _ = (ours, theirs, delta);
         Ok(())
     }

@@ -4,8 +4,8 @@ use crate::fact::{Kind, Question, TAKEN, dictionary_line};
 use crate::program::{Program, Start, Trouble, excerpt};
 use dsr_core::Dictionary;
 use std::collections::{BTreeSet, VecDeque};
-use std::sync::{Mutex, PoisonError};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// How many batches a program may be behind.
@@ -138,7 +138,11 @@ pub fn ask_each(start: &Start, compared: &Compared, next: &mut dyn FnMut() -> Op
     }
 }
 
-fn try_each(start: &Start, compared: &Compared, next: &mut dyn FnMut() -> Option<Batch>) -> Result<(), Trouble> {
+fn try_each(
+    start: &Start,
+    compared: &Compared,
+    next: &mut dyn FnMut() -> Option<Batch>,
+) -> Result<(), Trouble> {
     let mut program = start.start()?;
     let mut behind: VecDeque<Batch> = VecDeque::new();
     loop {
@@ -200,15 +204,22 @@ pub fn ask_now(program: &mut Program, facts: &[Fact]) -> Result<Option<Disagreem
 /// `[spec: ORACLE-6]`
 fn is_answer(fact: &Fact, theirs: &str) -> Result<(), Trouble> {
     let is_hex = |text: &str| {
-        !text.is_empty() && text.len().is_multiple_of(2) && text.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f'))
+        !text.is_empty()
+            && text.len().is_multiple_of(2)
+            && text.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f'))
     };
-    let is_pair = |text: &str| text.split_once(' ').is_some_and(|(left, right)| is_hex(left) && is_hex(right));
-    let is_word = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'.');
+    let is_pair =
+        |text: &str| text.split_once(' ').is_some_and(|(left, right)| is_hex(left) && is_hex(right));
+    let is_word = |text: &str| {
+        !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'.')
+    };
     let is_one = match Kind::of_line(&fact.line) {
         None => theirs == TAKEN,
         Some(Kind::Join | Kind::Answer) => is_hex(theirs),
         Some(Kind::Digest) => is_pair(theirs),
-        Some(Kind::View) => serde_json::from_str::<serde_json::Value>(theirs).is_ok_and(|view| view.is_object()),
+        Some(Kind::View) => {
+            serde_json::from_str::<serde_json::Value>(theirs).is_ok_and(|view| view.is_object())
+        }
         Some(Kind::Accepts) => theirs == "yes" || theirs == "no",
         Some(Kind::Delta) => match theirs.split_once(' ') {
             Some(("made", states)) => is_pair(states),

@@ -1,7 +1,9 @@
 //! Answers broken on purpose: what must be found. `[spec: ORACLE-7]`
 
 use crate::fact::{Question, TAKEN, hex, made, read, refused};
-use dsr_core::{CausalContext, Dictionary, Dot, Record, State, decode, digest, encode, encode_digest, fingerprint, view};
+use dsr_core::{
+    CausalContext, Dictionary, Dot, Record, State, decode, digest, encode, encode_digest, fingerprint, view,
+};
 use std::io::{self, BufRead, Write};
 
 /// How a program that speaks from the core is broken.

@@ -48,7 +48,8 @@ pub enum NoHistories {
 pub fn runs(extent: Extent) -> Result<Vec<HistoryRun<Checked>>, NoHistories> {
     let scene = |why: String| NoHistories::Scene { why };
     let dictionary = Dictionary::aal();
-    let flat = Scene::read(FLAT, &dictionary, Strictness::Strict).map_err(|error| scene(error.to_string()))?;
+    let flat =
+        Scene::read(FLAT, &dictionary, Strictness::Strict).map_err(|error| scene(error.to_string()))?;
     let state = &flat.scene.state;
     let subject = Subject { state, dictionary: &dictionary, names: &FLAT_FOCUS };
     let runs = match extent {

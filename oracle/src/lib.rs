@@ -19,6 +19,7 @@
 
 pub mod compare;
 
+pub mod corpus;
 pub mod desk;
 pub mod fact;
 pub mod flawed;

@@ -41,7 +41,9 @@ pub enum Trouble {
         path: String,
     },
     /// It is there and cannot be started.
-    #[error("{command:?} cannot be started: {why}\n  remedy: check its permissions, or build it anew with `spec/coq/check`")]
+    #[error(
+        "{command:?} cannot be started: {why}\n  remedy: check its permissions, or build it anew with `spec/coq/check`"
+    )]
     NotStarted {
         /// The program and its arguments.
         command: Vec<String>,
@@ -148,8 +150,7 @@ impl std::fmt::Debug for Heard {
 
 impl Program {
     fn start(start: &Start) -> Result<Self, Trouble> {
-        let not_started =
-            |why: String| Trouble::NotStarted { command: start.command.clone(), why };
+        let not_started = |why: String| Trouble::NotStarted { command: start.command.clone(), why };
         let [program, arguments @ ..] = start.command.as_slice() else {
             return Err(not_started("no program is named".into()));
         };
@@ -228,7 +229,8 @@ impl Program {
         if let Some(answer) = self.ready.pop() {
             return Err(Trouble::Unasked { answer: excerpt(&answer) });
         }
-        let ended = |how, words| Trouble::Ended { how, question: "nothing: its input had ended".into(), words };
+        let ended =
+            |how, words| Trouble::Ended { how, question: "nothing: its input had ended".into(), words };
         match self.heard.recv_timeout(GRACE) {
             Ok(Heard::Lines(lines)) => {
                 let answer = lines.first().map(|line| excerpt(line)).unwrap_or_default();

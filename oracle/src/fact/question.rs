@@ -122,10 +122,12 @@ impl Question {
                 states.for_each(|state| joined.join(state));
                 hex(&encode(&joined))
             }
-            Self::Delta { author, state, mutation } => match mutation.delta(&view(state, dictionary), *author) {
-                Ok(delta) => made(&delta, &state.joined(&delta)),
-                Err(error) => refused(&error.kind()),
-            },
+            Self::Delta { author, state, mutation } => {
+                match mutation.delta(&view(state, dictionary), *author) {
+                    Ok(delta) => made(&delta, &state.joined(&delta)),
+                    Err(error) => refused(&error.kind()),
+                }
+            }
             Self::View(state) => view_text(&view(state, dictionary)),
             Self::Digest(state) => format!("{} {}", hex(&encode_digest(&digest(state))), fingerprint(state)),
             Self::Answer { state, digest } => hex(&encode(&delta_for(state, digest))),

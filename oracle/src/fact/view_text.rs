@@ -11,9 +11,9 @@ pub fn view_text(view: &View<'_>) -> String {
     let mut edges: Vec<EdgeId> = view.edges().iter().map(|shown| shown.id).collect();
     edges.sort_unstable();
     list(&mut text, ",\"edges\":", edges.iter().map(quoted));
-    let registers = view.writes().chunk_by(|(_, left), (_, right)| {
-        (left.target, &left.name) == (right.target, &right.name)
-    });
+    let registers = view
+        .writes()
+        .chunk_by(|(_, left), (_, right)| (left.target, &left.name) == (right.target, &right.name));
     list(&mut text, ",\"writes\":", registers.map(|writes| dots(writes.iter().map(|(dot, _)| *dot))));
     let mut repairs: Vec<String> = view.repairs().iter().map(repair).collect();
     repairs.sort_unstable();

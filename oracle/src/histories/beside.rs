@@ -32,7 +32,9 @@ impl Beside {
 
     fn put(&self, thing: Thing) -> Result<(), Breach> {
         self.desk.put(thing).map_err(|stop| match stop {
-            Stop::Disagreement(found) => Breach::new(DISAGREES, format!("the program says otherwise\n{found}")),
+            Stop::Disagreement(found) => {
+                Breach::new(DISAGREES, format!("the program says otherwise\n{found}"))
+            }
             Stop::Trouble(trouble) => Breach::new(TROUBLE, trouble),
         })
     }
@@ -205,7 +207,11 @@ impl Semantics for Beside {
     }
 
     fn clauses(&self) -> Vec<Clause> {
-        let own = Clause { id: DISAGREES, claim: "", what: "the program from the model answers what the core does" };
+        let own = Clause {
+            id: DISAGREES,
+            claim: "",
+            what: "the program from the model answers what the core does",
+        };
         self.checked.clauses().into_iter().chain([own]).collect()
     }
 

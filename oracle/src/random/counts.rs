@@ -227,7 +227,8 @@ impl Counts {
             }
         }
         self.see_if(state.context().cloud_runs().next().is_some(), "a gap in a context");
-        let waits = |record: &Record| record.anchors().any(|dot| dot.sequence != 0 && !state.context().contains(dot));
+        let waits =
+            |record: &Record| record.anchors().any(|dot| dot.sequence != 0 && !state.context().contains(dot));
         self.see_if(state.records().any(|(_, record)| waits(record)), "a pending record");
         let is_register = |pair: &[(dsr_core::Dot, &dsr_core::Write)]| {
             (pair[0].1.target, &pair[0].1.name) == (pair[1].1.target, &pair[1].1.name)

@@ -19,7 +19,10 @@ pub(super) fn scene(dice: &mut Dice) -> State {
     let mut records: Vec<(Dot, Record)> = Vec::new();
     for at in 0..vertices {
         let name = ["a", "b", "c", "d"][at % 4].into();
-        records.push((dot(at), Record::Vertex(Vertex { vertex_type: "t".into(), name, external_id: None, stamp: 1 })));
+        records.push((
+            dot(at),
+            Record::Vertex(Vertex { vertex_type: "t".into(), name, external_id: None, stamp: 1 }),
+        ));
     }
     for child in 0..vertices {
         // Its parent is an earlier one or the root; now and then it has none.
@@ -64,7 +67,12 @@ pub(super) fn state(dice: &mut Dice, replicas: &[ReplicaId]) -> Option<State> {
                 vertices.push(at);
                 elements.push(at);
                 let external_id = once_in(dice, 4).then(|| time(dice));
-                Record::Vertex(Vertex { vertex_type: "t".into(), name: name_outside(dice), external_id, stamp })
+                Record::Vertex(Vertex {
+                    vertex_type: "t".into(),
+                    name: name_outside(dice),
+                    external_id,
+                    stamp,
+                })
             }
             4..=6 => {
                 let (from, to) = (anchor(dice, &vertices, replicas), anchor(dice, &vertices, replicas));
@@ -89,7 +97,8 @@ pub(super) fn state(dice: &mut Dice, replicas: &[ReplicaId]) -> Option<State> {
     if once_in(dice, 4) {
         let replica = some_replica(dice, replicas);
         let first = 1 + dice.below(SEQUENCES) as u64;
-        let last = if huge { limits::SEQUENCE_MAX - dice.below(3) as u64 } else { first + dice.below(4) as u64 };
+        let last =
+            if huge { limits::SEQUENCE_MAX - dice.below(3) as u64 } else { first + dice.below(4) as u64 };
         context.insert_run(Run { replica, first, last: last.max(first) });
     }
     let mut state = State::assemble(records, context);

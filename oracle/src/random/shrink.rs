@@ -93,7 +93,8 @@ fn candidate(history: &History, mut at: usize) -> Option<History> {
 fn simpler(event: &Event) -> Vec<Event> {
     match event {
         Event::Mutate { replica, timestamp_ns, mutations } => {
-            let with = |mutations| Event::Mutate { replica: *replica, timestamp_ns: *timestamp_ns, mutations };
+            let with =
+                |mutations| Event::Mutate { replica: *replica, timestamp_ns: *timestamp_ns, mutations };
             let fewer = (0..mutations.len()).filter(|_| mutations.len() > 1).map(|out| {
                 let left = mutations.iter().enumerate().filter(|(at, _)| *at != out);
                 left.map(|(_, mutation)| mutation.clone()).collect()
@@ -131,7 +132,8 @@ fn simpler(event: &Event) -> Vec<Event> {
                 }
                 State::assemble(left, context)
             });
-            let runs = state.context().runs().filter(|run| !state.records().any(|(dot, _)| run.contains(dot)));
+            let runs =
+                state.context().runs().filter(|run| !state.records().any(|(dot, _)| run.contains(dot)));
             let less_seen = runs.map(|out| {
                 let mut context = dsr_core::CausalContext::new();
                 state.context().runs().filter(|run| *run != out).for_each(|run| context.insert_run(run));

@@ -28,7 +28,9 @@ pub fn tell(history: &History) -> String {
 }
 
 fn words(world: &World, number: usize, event: &Event) -> String {
-    let who = |replica: &usize| world.replicas.get(*replica).map(|replica| replica.id.to_string()).unwrap_or_default();
+    let who = |replica: &usize| {
+        world.replicas.get(*replica).map(|replica| replica.id.to_string()).unwrap_or_default()
+    };
     match event {
         Event::Mutate { replica, mutations, .. } => {
             let mutations: Vec<String> = mutations.iter().map(json).collect();

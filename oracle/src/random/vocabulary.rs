@@ -98,7 +98,10 @@ fn value_of(dice: &mut Dice, value_type: ValueType) -> Value {
         ValueType::Float => Value::Float(float(dice)),
         ValueType::FloatVec => (0..dice.below(4)).map(|_| float(dice)).collect::<Vec<f32>>().into(),
         ValueType::Bool => Value::Bool(once_in(dice, 2)),
-        ValueType::ByteVec => (0..dice.below(4)).map(|_| u8::try_from(255 * dice.below(2)).unwrap_or(0)).collect::<Vec<u8>>().into(),
+        ValueType::ByteVec => (0..dice.below(4))
+            .map(|_| u8::try_from(255 * dice.below(2)).unwrap_or(0))
+            .collect::<Vec<u8>>()
+            .into(),
         ValueType::UInt => Value::UInt(pick(dice, &[0, 1, u32::MAX]).copied().unwrap_or(0)),
         ValueType::UInt64 => Value::UInt64(wide(dice)),
         ValueType::Double => Value::Double(double(dice)),
@@ -116,7 +119,8 @@ fn wide(dice: &mut Dice) -> u64 {
 }
 
 fn float(dice: &mut Dice) -> f32 {
-    let all = [0.0, -0.0, 1.0, f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MIN_POSITIVE, 1e-45, f32::MAX, 0.1];
+    let all =
+        [0.0, -0.0, 1.0, f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MIN_POSITIVE, 1e-45, f32::MAX, 0.1];
     pick(dice, &all).copied().unwrap_or(0.0)
 }
 

@@ -114,8 +114,10 @@ pub(super) enum Outcome {
 
 impl World {
     pub(super) fn of(history: &History) -> Self {
-        let replicas = history.replicas.iter().map(|(id, dictionary)| {
-            Replica { id: *id, dictionary: dictionary.clone(), state: State::new() }
+        let replicas = history.replicas.iter().map(|(id, dictionary)| Replica {
+            id: *id,
+            dictionary: dictionary.clone(),
+            state: State::new(),
         });
         Self { replicas: replicas.collect(), deltas: BTreeMap::new(), digests: BTreeMap::new() }
     }
