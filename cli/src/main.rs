@@ -5,6 +5,7 @@ mod check;
 mod conform;
 mod gallery;
 mod input;
+mod oracle;
 mod output;
 mod page;
 mod replay;
@@ -35,6 +36,7 @@ enum Command {
     Check(check::Arguments),
     Alarms(alarms::Arguments),
     Conform(conform::Arguments),
+    Oracle(oracle::Arguments),
     Gallery(gallery::Arguments),
     Trace(trace::Arguments),
     Replay(replay::Arguments),
@@ -50,6 +52,7 @@ impl Command {
             Self::Check(arguments) => arguments.run(),
             Self::Alarms(arguments) => arguments.run(),
             Self::Conform(arguments) => arguments.run(),
+            Self::Oracle(arguments) => arguments.run(),
             Self::Gallery(arguments) => arguments.run(),
             Self::Trace(arguments) => arguments.run(),
             Self::Replay(arguments) => arguments.run(),

@@ -8,7 +8,7 @@
 //! | for | methods |
 //! |---|---|
 //! | any layer | `name`, `initial`, `mutations`, `mutate`, `join`, `judge` |
-//! | more that is judged | `judge_step`, `judge_delivery`, `repair`, `join_states`, `clauses`, `judges` |
+//! | more that is judged | `judge_step`, `judge_delivery`, `judge_repair`, `repair`, `join_states`, `clauses`, `judges` |
 //! | deltas that are no states | `delivery`, `author_state`, `differ`, `plain` |
 //! | checks that are not vacuous | `kind`, `kinds`, `kinds_in_use`, `witnesses` |
 //! | a faster search | `has_symmetry`, `rename_state`, `rename_delta`, `is_order_sensitive`; `stamp`, `restamped`, `next_stamp`, `compete`, `appearance` |
@@ -217,6 +217,17 @@ pub trait Semantics: Debug + Send + Sync + 'static {
     /// Judges a delivery: what must hold between a state and the state after more was delivered.
     fn judge_delivery(&self, before: &Self::State, after: &Self::State) -> Result<(), Breach> {
         let _ = (before, after);
+        Ok(())
+    }
+
+    /// Judges an answer to a digest: what must hold between who answers, who is answered, and the delta.
+    fn judge_repair(
+        &self,
+        ours: &Self::State,
+        theirs: &Self::State,
+        delta: &Self::Delta,
+    ) -> Result<(), Breach> {
+        let _ = (ours, theirs, delta);
         Ok(())
     }
 

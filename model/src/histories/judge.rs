@@ -280,9 +280,12 @@ impl<S: Semantics> Histories<S> {
                 else {
                     continue;
                 };
+                let mut judged = self.semantics.judge_repair(ours, theirs, &delta);
                 if self.semantics.join(theirs, &delta) != joined {
-                    let fault = Fault::new(Breach::new("SYNC-3", NOT_THE_JOIN), has, None);
-                    return Err(Fault { answered: Some(had.to_vec()), ..fault });
+                    judged = Err(Breach::new("SYNC-3", NOT_THE_JOIN));
+                }
+                if let Err(breach) = judged {
+                    return Err(Fault { answered: Some(had.to_vec()), ..Fault::new(breach, has, None) });
                 }
             }
         }

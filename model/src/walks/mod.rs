@@ -18,5 +18,6 @@ mod run;
 mod walk;
 
 pub use counts::Counts;
+pub use dice::Dice;
 pub use run::{WalkFinding, WalkRun, find};
 pub use walk::{Faults, Walk, Walked};

@@ -1,0 +1,291 @@
+//! A case as requests, and what the core replies to each. `[spec: ORACLE-4]`
+
+use super::expected::Expected;
+use crate::program::{Trouble, excerpt};
+use dsr_conformance::adapter::{Adapter, Core, answer};
+use dsr_conformance::case::{Case, Encoded, Step};
+use dsr_conformance::corpus;
+use dsr_conformance::protocol::{
+    Answer, AnswerDigest, AnswerFor, CaseBegin, Command, Decline, Decode, Deliver, DeltaName, Group, Hello,
+    Load, Lookup, Mutate, PROTOCOL, Profile, Read, Reply, Request, Restart, View,
+};
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// A request, and what is due.
+#[derive(Debug)]
+pub(super) struct Want {
+    /// The step that it is for, counted from 1.
+    pub(super) step: usize,
+    /// The request.
+    pub(super) asked: String,
+    id: u64,
+    /// What the core replies.
+    ours: Result<Answer, Decline>,
+    /// The same as a line.
+    line: String,
+    /// What the file expects of this reply.
+    pub(super) expected: Vec<Expected>,
+}
+
+/// A reply without its number and without words.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) enum Said {
+    /// `ok`, views in canonical form.
+    Ok(Value),
+    /// The code, and the kind if there is one.
+    Declined(Value, Value),
+}
+
+impl Said {
+    fn text(&self) -> String {
+        match self {
+            Self::Ok(value) => value.to_string(),
+            Self::Declined(code, Value::Null) => format!("declined: {code}"),
+            Self::Declined(code, kind) => format!("declined: {code}, {kind}"),
+        }
+    }
+
+    fn ours(answered: &Result<Answer, Decline>) -> Self {
+        match answered {
+            Ok(Answer::View(shown)) => {
+                Self::Ok(serde_json::json!({ "view": shown.view.clone().canonical() }))
+            }
+            Ok(answer) => Self::Ok(serde_json::to_value(answer).unwrap_or_default()),
+            Err(Decline::Error(error)) => Self::Declined(
+                serde_json::to_value(error.code).unwrap_or_default(),
+                error.kind.clone().into(),
+            ),
+            Err(Decline::Skip(_)) => Self::Declined("skip".into(), Value::Null),
+        }
+    }
+
+    fn theirs(mut reply: Value) -> Option<Self> {
+        if let Some(ok) = reply.get_mut("ok") {
+            let mut ok = ok.take();
+            if let Some(view) = ok.get_mut("view") {
+                let read: View = serde_json::from_value(view.take()).ok()?;
+                *view = serde_json::to_value(read.canonical()).ok()?;
+            }
+            return Some(Self::Ok(ok));
+        }
+        let error = reply.get("error")?;
+        Some(Self::Declined(error.get("code")?.clone(), error.get("kind").cloned().unwrap_or(Value::Null)))
+    }
+}
+
+impl Want {
+    /// What is due and what came, where they differ.
+    pub(super) fn judge(&self, reply: &str) -> Result<Vec<(String, String)>, Trouble> {
+        // Most replies are the core's to the letter.
+        if self.expected.is_empty() && reply == self.line {
+            return Ok(Vec::new());
+        }
+        let garbage = || Trouble::Garbage { answer: excerpt(reply), question: excerpt(&self.asked) };
+        let read: Value = serde_json::from_str(reply).map_err(|_| garbage())?;
+        if read.get("id").and_then(Value::as_u64) != Some(self.id) {
+            return Err(garbage());
+        }
+        let theirs = Said::theirs(read).ok_or_else(garbage)?;
+        let mut differences = Vec::new();
+        let ours = Said::ours(&self.ours);
+        if theirs != ours {
+            differences.push((ours.text(), theirs.text()));
+        }
+        differences.extend(self.expected.iter().filter_map(|expected| expected.differs(&theirs)));
+        Ok(differences)
+    }
+}
+
+/// The requests of a case.
+#[derive(Debug)]
+pub(super) struct Script {
+    pub(super) lines: Vec<u8>,
+    pub(super) wants: Vec<Want>,
+}
+
+/// The line of the handshake.
+pub(super) fn hello() -> String {
+    line(0, Command::Hello(greeting()))
+}
+
+fn greeting() -> Hello {
+    Hello { protocols: vec![PROTOCOL], spec: corpus::SPEC_VERSION.into(), corpus: corpus::VERSION.into() }
+}
+
+fn line(id: u64, command: Command) -> String {
+    // Requests are maps of strings: writing one cannot fail.
+    serde_json::to_string(&Request { id, r#do: command }).unwrap_or_default()
+}
+
+impl Script {
+    /// Carries the case out on the core, and writes down what is asked, from this number on. After every step all that can
+    /// be asked of every replica is asked.
+    pub(super) fn of(case: &Case, id: u64) -> Self {
+        let mut maker = Maker {
+            core: Core::default(),
+            script: Self { lines: Vec::new(), wants: Vec::new() },
+            id: id + 1,
+            step: 0,
+            deltas: BTreeMap::new(),
+        };
+        // The core shakes hands with whom it is made for.
+        let _ = maker.core.hello(&greeting());
+        maker.ask(
+            Command::CaseBegin(CaseBegin {
+                case: case.id.clone(),
+                replicas: case.replicas.clone(),
+                dictionary: case.dictionary.clone(),
+            }),
+            Vec::new(),
+        );
+        for (at, step) in case.steps.iter().enumerate() {
+            maker.step = at + 1;
+            maker.step(step);
+            maker.look(case);
+        }
+        maker.script
+    }
+}
+
+struct Maker<'c> {
+    core: Core,
+    script: Script,
+    id: u64,
+    step: usize,
+    /// The core's name for each delta that the case names.
+    deltas: BTreeMap<&'c str, String>,
+}
+
+impl<'c> Maker<'c> {
+    fn ask(&mut self, command: Command, expected: Vec<Expected>) -> Option<Answer> {
+        let answered = answer(&mut self.core, &command);
+        let asked = line(self.id, command);
+        self.script.lines.extend_from_slice(asked.as_bytes());
+        self.script.lines.push(b'\n');
+        let said = answered.as_ref().ok().cloned();
+        let (step, id) = (self.step, self.id);
+        // Replies are maps of strings: writing one cannot fail.
+        let line = serde_json::to_string(&Reply::new(id, answered.clone())).unwrap_or_default();
+        self.script.wants.push(Want { step, asked, id, ours: answered, line, expected });
+        self.id += 1;
+        said
+    }
+
+    fn make(&mut self, command: Command, name: Option<&'c str>) {
+        if let (Some(Answer::Delta(made)), Some(name)) = (self.ask(command, Vec::new()), name) {
+            self.deltas.insert(name, made.delta);
+        }
+    }
+
+    fn delta(&self, name: &str) -> String {
+        self.deltas.get(name).cloned().unwrap_or_default()
+    }
+
+    fn step(&mut self, step: &'c Step) {
+        let read = |replica: &String| Read { replica: replica.clone() };
+        match step {
+            Step::Mutate { replica, mutations, r#as } => {
+                let mutate = Mutate { replica: replica.clone(), mutations: mutations.clone() };
+                self.make(Command::Mutate(mutate), r#as.as_deref());
+            }
+            Step::Deliver { replica, delta } => {
+                let deliver = Deliver { replica: replica.clone(), delta: self.delta(delta) };
+                self.make(Command::Deliver(deliver), None);
+            }
+            Step::Restart { replica, keeps } => {
+                self.make(Command::Restart(Restart { replica: replica.clone(), keeps: *keeps }), None);
+            }
+            Step::Answer { from, to, r#as } => {
+                self.make(Command::Answer(AnswerFor { from: from.clone(), to: to.clone() }), Some(r#as));
+            }
+            Step::Group { deltas, r#as } => {
+                let deltas = deltas.iter().map(|delta| self.delta(delta)).collect();
+                self.make(Command::Group(Group { deltas }), Some(r#as));
+            }
+            Step::Load { state, r#as } => self.make(Command::Load(Load { state: state.clone() }), Some(r#as)),
+            Step::Decode { bytes, r#as } => {
+                self.make(Command::Decode(Decode { bytes: bytes.clone() }), Some(r#as));
+            }
+            Step::AnswerDigest { from, bytes, r#as } => {
+                let answer = AnswerDigest { from: from.clone(), bytes: bytes.clone() };
+                self.make(Command::AnswerDigest(answer), Some(r#as));
+            }
+            Step::Expect { replica, view } => {
+                self.expect(Command::Read(read(replica)), Expected::View(view.clone()));
+            }
+            Step::ExpectEqual { replicas } => self.expect_equal(replicas),
+            Step::ExpectRefused { replica, mutations, kind } => {
+                let mutate = Mutate { replica: replica.clone(), mutations: mutations.clone() };
+                self.expect(Command::Mutate(mutate), Expected::Refused(Some(kind.clone())));
+            }
+            Step::ExpectVertex { replica, name, vertex } => {
+                let lookup = Lookup { replica: replica.clone(), name: name.clone() };
+                self.expect(Command::Lookup(lookup), Expected::Vertex(vertex.clone()));
+            }
+            Step::ExpectState { replica, state } => {
+                self.expect(Command::State(read(replica)), Expected::State(state.clone()));
+            }
+            Step::ExpectDelta { delta, state } => {
+                let name = DeltaName { delta: self.delta(delta) };
+                self.expect(Command::Delta(name), Expected::State(state.clone()));
+            }
+            Step::ExpectDigest { replica, digest } => {
+                self.expect(Command::Digest(read(replica)), Expected::Digest(digest.clone()));
+            }
+            Step::ExpectBytes { of, bytes } => {
+                let command = match of {
+                    Encoded::Delta(delta) => Command::Encode(DeltaName { delta: self.delta(delta) }),
+                    Encoded::Digest(replica) => Command::EncodeDigest(read(replica)),
+                    Encoded::Fingerprint(replica) => Command::Fingerprint(read(replica)),
+                };
+                self.expect(command, Expected::Bytes(bytes.clone()));
+            }
+            Step::ExpectUnloadable { state, kind } => {
+                self.expect(Command::Load(Load { state: state.clone() }), Expected::Refused(kind.clone()));
+            }
+            Step::ExpectUndecodable { bytes, kind } => {
+                self.expect(
+                    Command::Decode(Decode { bytes: bytes.clone() }),
+                    Expected::Refused(kind.clone()),
+                );
+            }
+            Step::ExpectUnanswerable { from, bytes } => {
+                let answer = AnswerDigest { from: from.clone(), bytes: bytes.clone() };
+                self.expect(Command::AnswerDigest(answer), Expected::Refused(None));
+            }
+        }
+    }
+
+    fn expect(&mut self, command: Command, expected: Expected) {
+        self.ask(command, vec![expected]);
+    }
+
+    /// Each of them shows what the core says that the first one shows.
+    fn expect_equal(&mut self, replicas: &[String]) {
+        let mut first: Option<View> = None;
+        for replica in replicas {
+            let read = Read { replica: replica.clone() };
+            let expected = first.clone().map(Expected::View).into_iter().collect();
+            if let (None, Some(Answer::View(shown))) = (&first, self.ask(Command::Read(read), expected)) {
+                first = Some(shown.view);
+            }
+        }
+    }
+
+    /// All that can be asked of every replica, as deep as the case goes.
+    fn look(&mut self, case: &Case) {
+        for replica in &case.replicas {
+            let read = || Read { replica: replica.clone() };
+            self.ask(Command::Read(read()), Vec::new());
+            if case.profile >= Profile::Causal {
+                self.ask(Command::State(read()), Vec::new());
+                self.ask(Command::Digest(read()), Vec::new());
+            }
+            if case.profile >= Profile::Wire {
+                self.ask(Command::EncodeDigest(read()), Vec::new());
+                self.ask(Command::Fingerprint(read()), Vec::new());
+            }
+        }
+    }
+}
