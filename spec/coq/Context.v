@@ -214,15 +214,11 @@ Definition stands_for (F : Form) (s : fset Dot) : Prop := compact F /\ forall d,
 Definition form_of (s : fset Dot) : Form :=
   fold_right (fun d => insert_run (replica d) (sequence d) (sequence d)) empty (elements s).
 
-(** Every context of a well-formed state has a form, and only one. *)
-Theorem form_of_stands s : (forall d, mem s d = true -> sequence d <> 0%N) -> stands_for (form_of s) s.
+(** The form of the dots listed. *)
+Lemma form_of_dots l : (forall d, In d l -> sequence d <> 0%N) ->
+  let F := fold_right (fun d => insert_run (replica d) (sequence d) (sequence d)) empty l in
+  compact F /\ forall d, covers F d = true <-> In d l.
 Proof.
-  intros E. unfold stands_for, form_of.
-  enough (R : forall l, (forall d, In d l -> sequence d <> 0%N) ->
-    let F := fold_right (fun d => insert_run (replica d) (sequence d) (sequence d)) empty l in
-    compact F /\ forall d, covers F d = true <-> In d l).
-  { destruct (R (elements s)) as [C M]; [intros d I; now apply E, mem_elements |].
-    split; auto. intros d. apply eq_true_iff_eq. now rewrite M, mem_elements. }
   induction l as [| d l IH]; intros A; simpl; [split; [intros p rs; easy | easy] |].
   destruct IH as [C M]; [intros e I; apply A; now right |].
   assert (sequence d <> 0%N) by (apply A; now left). split.
@@ -230,6 +226,13 @@ Proof.
   - intros e. rewrite insert_run_meaning, M by (auto; lia). split; intros [H1 | H1]; auto.
     + left. destruct d, e; simpl in *. destruct H1 as [-> ?]. f_equal. lia.
     + subst. left. split; auto. lia.
+Qed.
+
+(** Every context of a well-formed state has a form, and only one. *)
+Theorem form_of_stands s : (forall d, mem s d = true -> sequence d <> 0%N) -> stands_for (form_of s) s.
+Proof.
+  intros E. destruct (form_of_dots (elements s)) as [C M]; [intros d I; now apply E, mem_elements |].
+  split; auto. intros d. apply eq_true_iff_eq. unfold form_of. now rewrite M, mem_elements.
 Qed.
 
 Theorem forms_equal F G s : stands_for F s -> stands_for G s -> F = G.
