@@ -1,5 +1,7 @@
 //! Views as text, and histories beside the extracted program.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on says where")]
+
 mod common;
 
 use common::extracted;
