@@ -10,7 +10,7 @@ use crate::program::{Program, Start, Trouble, excerpt};
 use dsr_conformance::case::Case;
 use dsr_conformance::report::{Outcome, Report};
 use dsr_conformance::run::{ChildLimits, Program as Adapter};
-use script::{Script, Want, hello};
+use script::{Known, Script, Want, hello};
 use std::sync::Mutex;
 use std::sync::PoisonError;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
@@ -152,6 +152,7 @@ fn side_by_side<'c>(
     }
     let mut behind: std::collections::VecDeque<(String, Vec<Want>)> = std::collections::VecDeque::new();
     let mut waiting = 0;
+    let mut known = Known::default();
     loop {
         let case = next();
         if let Some(case) = case {
@@ -165,7 +166,7 @@ fn side_by_side<'c>(
         while waiting > BEHIND_MAX || case.is_none() {
             let Some((case, wants)) = behind.pop_front() else { break };
             waiting -= wants.len();
-            judge(&mut program, &case, wants, counts)?;
+            judge(&mut program, &case, wants, &mut known, counts)?;
         }
         if case.is_none() {
             return program.finish();
@@ -173,12 +174,18 @@ fn side_by_side<'c>(
     }
 }
 
-fn judge(program: &mut Program, case: &str, wants: Vec<Want>, counts: &Counts) -> Result<(), Trouble> {
+fn judge(
+    program: &mut Program,
+    case: &str,
+    wants: Vec<Want>,
+    known: &mut Known,
+    counts: &Counts,
+) -> Result<(), Trouble> {
     for want in wants {
         let reply = program.answer(&|| want.asked.clone())?;
         counts.replies.fetch_add(1, Relaxed);
         counts.expectations.fetch_add(want.expected.len() as u64, Relaxed);
-        for (due, came) in want.judge(&reply)? {
+        for (due, came) in want.judge(&reply, known)? {
             counts.differing.fetch_add(1, Relaxed);
             let mut kept = lock(&counts.differences);
             if kept.len() < KEPT_MAX {

@@ -21,6 +21,9 @@ const BATCH: usize = 64;
 /// Batches that wait for a program.
 const WAITING_MAX: usize = 64;
 
+/// Things and their keys.
+type Things = Vec<(u64, Thing)>;
+
 /// A thing that a search has computed.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub enum Thing {
@@ -78,8 +81,8 @@ pub struct Desk {
     start: Start,
     /// What was put down, by key.
     known: Mutex<FxHashSet<u64>>,
-    batch: Mutex<Vec<(u64, Thing)>>,
-    to_ask: Mutex<Option<SyncSender<Vec<(u64, Thing)>>>>,
+    batch: Mutex<Things>,
+    to_ask: Mutex<Option<SyncSender<Things>>>,
     workers: Mutex<Vec<JoinHandle<()>>>,
     compared: Arc<Compared>,
     strict: AtomicBool,
@@ -146,7 +149,7 @@ impl Desk {
     /// Puts a thing down, to be asked some time; `Err` if there is no need to go on.
     pub fn put(&self, thing: Thing) -> Result<(), Stop> {
         if self.is_strict() {
-            return self.ask(thing);
+            return self.ask(&thing);
         }
         let key = thing.key();
         if lock(&self.known).insert(key) {
@@ -181,13 +184,13 @@ impl Desk {
         }
     }
 
-    fn hand_over(&self, batch: Vec<(u64, Thing)>) {
+    fn hand_over(&self, batch: Things) {
         // Without anybody to take it, its trouble has been told.
         let _ = lock(&self.to_ask).as_ref().map(|to_ask| to_ask.send(batch));
     }
 
     /// Asks at once, unless it is known to agree.
-    fn ask(&self, thing: Thing) -> Result<(), Stop> {
+    fn ask(&self, thing: &Thing) -> Result<(), Stop> {
         if let Some(trouble) = self.compared.trouble() {
             return Err(Stop::Trouble(trouble));
         }
@@ -226,7 +229,7 @@ impl Desk {
     }
 }
 
-fn take(asked: &Mutex<Receiver<Vec<(u64, Thing)>>>, dictionary: &Dictionary) -> Option<Batch> {
+fn take(asked: &Mutex<Receiver<Things>>, dictionary: &Dictionary) -> Option<Batch> {
     let things = lock(asked).recv().ok()?;
     let mut facts = vec![Fact::of_dictionary(dictionary)];
     for (key, thing) in &things {

@@ -2,7 +2,7 @@
 
 use crate::fact::{Question, TAKEN, hex, made, read, refused};
 use dsr_core::{
-    CausalContext, Dictionary, Dot, Record, State, decode, digest, encode, encode_digest, fingerprint, view,
+    CausalContext, Dictionary, Record, State, decode, digest, encode, encode_digest, fingerprint, view,
 };
 use std::io::{self, BufRead, Write};
 
@@ -174,9 +174,7 @@ fn forgetful(left: &State, right: &State) -> State {
     for (dot, _) in joined.records() {
         context.insert(dot);
     }
-    for run in right.context().runs() {
-        run.dots().filter(|dot| right.holds(*dot)).for_each(|dot: Dot| context.insert(dot));
-    }
+    right.records().for_each(|(dot, _)| context.insert(dot));
     State::assemble(joined.records().map(|(dot, record)| (dot, record.clone())), context)
 }
 

@@ -69,11 +69,11 @@ pub fn run(
             compared.stop();
         }
         let mut facts = Vec::new();
-        let mut seen = Counts::default();
+        let mut own_counts = Counts::default();
         for number in own {
-            facts.extend(carry_out(&draw(seed, number), &mut seen));
+            facts.extend(carry_out(&draw(seed, number), &mut own_counts));
         }
-        counts.lock().unwrap_or_else(PoisonError::into_inner).add(&seen);
+        counts.lock().unwrap_or_else(PoisonError::into_inner).add(&own_counts);
         facts
     });
     if let Some(trouble) = compared.trouble() {

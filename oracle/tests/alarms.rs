@@ -1,5 +1,7 @@
 //! Broken programs are found; programs that cannot be asked are no agreement.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on says where")]
+
 mod common;
 
 use common::core;

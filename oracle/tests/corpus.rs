@@ -1,5 +1,7 @@
 //! The conformance corpus, step by step.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on says where")]
+
 mod common;
 
 use common::{adapter, core, extracted};

@@ -1,5 +1,7 @@
 //! Random histories.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on says where")]
+
 mod common;
 
 use common::{core, extracted};

@@ -13,7 +13,7 @@ macro_rules! chapters {
 
 chapters! {
     "README", "checker", "claims", "closure", "conflicts", "conformance", "context", "dictionary", "encoding",
-    "identity", "intent", "invariants", "join", "limits", "mutations", "network", "scenario", "scene", "stamps",
+    "identity", "intent", "invariants", "join", "limits", "mutations", "network", "oracle", "scenario", "scene", "stamps",
     "state", "sync", "trace", "values", "view", "wellformed",
 }
 

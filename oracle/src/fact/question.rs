@@ -5,7 +5,6 @@ use dsr_core::{
     Author, Delta, Dictionary, Digest, Mutation, State, decode, delta_for, digest, encode, encode_digest,
     fingerprint, view,
 };
-use std::fmt::Write;
 
 /// What is asked.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -156,17 +155,4 @@ pub fn hex(bytes: &[u8]) -> String {
         }
     }
     text
-}
-
-/// For people: the kind, and how long it is.
-impl std::fmt::Display for Question {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let mut line = self.line();
-        const CHARACTERS_MAX: usize = 160;
-        if let Some((at, _)) = line.char_indices().nth(CHARACTERS_MAX) {
-            line.truncate(at);
-            write!(line, "…")?;
-        }
-        f.write_str(&line)
-    }
 }

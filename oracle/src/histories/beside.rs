@@ -63,6 +63,11 @@ impl Beside {
     }
 }
 
+/// The same step of this semantics.
+fn own(Step { delta, after }: Step<Checked>) -> Step<Beside> {
+    Step { delta, after }
+}
+
 /// All is as in [`Checked`], but what it computes is put down.
 impl Semantics for Beside {
     type State = State;
@@ -86,8 +91,7 @@ impl Semantics for Beside {
     }
 
     fn mutate(&self, state: &State, replica: usize, mutation: &Act) -> Option<Step<Self>> {
-        let Step { delta, after } = self.checked.mutate(state, replica, mutation)?;
-        Some(Step { delta, after })
+        self.checked.mutate(state, replica, mutation).map(own)
     }
 
     /// All that the alphabet has is asked, what is refused as well.
@@ -95,7 +99,7 @@ impl Semantics for Beside {
         // Whoever judges the state tells what is wrong.
         let _ = self.put_mutations(state, replica, &self.checked.mutations(state, replica));
         let steps = self.checked.steps(state, replica).into_iter();
-        steps.map(|(act, Step { delta, after })| (act, Step { delta, after })).collect()
+        steps.map(|(act, step)| (act, own(step))).collect()
     }
 
     fn join(&self, state: &State, delta: &Delta) -> State {

@@ -149,7 +149,7 @@ impl World {
                 }
                 asked.push((0, of_join(&parts)));
                 let whole = parts.into_iter().fold(Delta::new(), |whole, part| whole.joined(part));
-                self.keep(number, whole)
+                Some(self.keep(number, whole))
             }
             Event::Tell { replica } => {
                 let state = &self.replicas.get(*replica)?.state;
@@ -161,7 +161,7 @@ impl World {
                 let (state, theirs) = (&self.replicas.get(*replica)?.state, self.digests.get(digest)?);
                 asked.push((*replica, of_answer_to(state, theirs)));
                 let delta = dsr_core::delta_for(state, theirs);
-                self.keep(number, delta)
+                Some(self.keep(number, delta))
             }
             Event::Restart { replica } => {
                 let replica = self.replicas.get_mut(*replica)?;
@@ -171,7 +171,7 @@ impl World {
             Event::Outside { state } => {
                 asked.push((0, Question::Accepts(encode(state))));
                 asked.extend(of_state(state).map(|question| (0, question)));
-                self.keep(number, state.clone())
+                Some(self.keep(number, state.clone()))
             }
             Event::Bytes { bytes } => {
                 asked.push((0, Question::Accepts(bytes.clone())));
@@ -212,16 +212,16 @@ impl World {
         }
         let whole = parts.iter().fold(Delta::new(), |whole, part| whole.joined(part));
         self.arrive(at, state, asked);
-        self.keep(number, whole)
+        Some(self.keep(number, whole))
     }
 
     /// A delta that is sent is well-formed: nobody would take it else.
-    fn keep(&mut self, number: usize, delta: Delta) -> Option<Outcome> {
+    fn keep(&mut self, number: usize, delta: Delta) -> Outcome {
         if check_well_formed(&delta).is_err() {
-            return Some(Outcome::NotTaken);
+            return Outcome::NotTaken;
         }
         self.deltas.insert(number, delta);
-        Some(Outcome::Done)
+        Outcome::Done
     }
 
     fn take(&mut self, at: usize, other: &State, asked: &mut Asked) -> Option<Outcome> {
