@@ -8,6 +8,33 @@ From DSR Require Import Join Mutations.
 From DSR Require Export Sequential.
 From Coq Require Import Relations.
 
+Definition nothing_functional : Dictionary := {| functional := fun _ => false |}.
+
+(** Of two states whatever: a kinematic claim that one shows and the other hides is hidden by what only the other
+    shows. *)
+Lemma displaced X Y c : In c (accepted X) -> In c (kinematic Y) -> In c (accepted Y) \/
+  exists s, In s (accepted Y) /\ ltb (claim_rank s) (claim_rank c) = false /\ ~ In s (accepted X).
+Proof.
+  intros A K. destruct (kinematic_shown_or_refused Y c K) as [S | (why & H)]; [now left | right].
+  pose proof (refused_not_accepted Y c why H) as N.
+  pose proof (refused_has_cause Y c why H) as Ca. destruct why as [s |].
+  - destruct Ca as (S & Ts & Lt). exists s. repeat split; auto. intros B. apply N.
+    destruct (proj2 (shown_RT nothing_functional X s) B) as [Bs Rs],
+      (proj2 (shown_RT nothing_functional X c) A) as [Ac Rc].
+    now rewrite <- (unique_parent nothing_functional X s c).
+  - destruct Ca as (g & G & F & Co). rewrite Forall_forall in F.
+    destruct (existsb (fun s => negb (member s (accepted X))) g) eqn:B.
+    + apply existsb_exists in B as (s & M & B). exists s. repeat split; auto.
+      intros Q. apply member_in in Q. now rewrite Q in B.
+    + exfalso. destruct (kinematic_acyclic X) as [_ Ac].
+      destruct (in_split _ _ A) as (before & after & E). apply (Ac _ _ _ E). eapply connected_incl; [| exact Co].
+      intros s M. assert (Q : In s (accepted X)).
+      { apply member_in. rewrite <- not_true_iff_false in B. destruct (member s (accepted X)) eqn:Q; auto.
+        exfalso. apply B, existsb_exists. exists s. now rewrite Q. }
+      rewrite E in Q. apply in_app_iff in Q as [Q | [<- | Q]]; apply in_app_iff; auto.
+      now apply G, N in M.
+Qed.
+
 Section Later.
   Context (D : Dictionary) (allows : Name -> N -> bool).
   Context (X Y : State) (L : X ≤ Y) (C : closed Y).
@@ -58,24 +85,33 @@ Section Later.
     exists s, In s (accepted Y) /\ ltb (claim_rank s) (claim_rank c) = false /\ ~ In s (accepted X).
   Proof.
     intros A. pose proof A as K. apply accepted_kinematic, kinematic_in in K as (I & R & T).
-    destruct (stays_visible _ I) as [Z | J]; [now left | right].
-    destruct (kinematic_shown_or_refused Y c) as [S | (why & H)]; [now apply kinematic_in | now left | right].
-    pose proof (refused_not_accepted Y c why H) as N.
-    pose proof (refused_has_cause Y c why H) as Ca. destruct why as [s |].
-    - destruct Ca as (S & Ts & Lt). exists s. repeat split; auto. intros B. apply N.
-      apply (proj2 (shown_RT D X s)) in B as [B Rs]. apply (proj2 (shown_RT D X c)) in A as [A Rc].
-      now rewrite <- (unique_parent D X s c).
-    - destruct Ca as (g & G & F & Co). rewrite Forall_forall in F.
-      destruct (existsb (fun s => negb (member s (accepted X))) g) eqn:B.
-      + apply existsb_exists in B as (s & M & B). exists s. repeat split; auto.
-        intros Q. apply member_in in Q. now rewrite Q in B.
-      + exfalso. destruct (kinematic_acyclic X) as [_ Ac].
-        destruct (in_split _ _ A) as (before & after & E). apply (Ac _ _ _ E). eapply connected_incl; [| exact Co].
-        intros s M. assert (Q : In s (accepted X)).
-        { apply member_in. rewrite <- not_true_iff_false in B. destruct (member s (accepted X)) eqn:Q; auto.
-          exfalso. apply B, existsb_exists. exists s. now rewrite Q. }
-        rewrite E in Q. apply in_app_iff in Q as [Q | [<- | Q]]; apply in_app_iff; auto.
-        now apply G, N in M.
+    destruct (stays_visible _ I) as [Z | J]; [now left | right]. apply displaced; auto. now apply kinematic_in.
+  Qed.
+
+  (** [INTENT-2] The write that is read stays so until it dies, or a greater write of the attribute comes that was
+      not shown before. *)
+  Theorem attribute_stays t n c : attribute allows X t n = Some c ->
+    is_dead Y (fst c) = true \/ attribute allows Y t n = Some c \/
+    exists s, attribute allows Y t n = Some s /\ ltb (claim_rank c) (claim_rank s) = true /\ ~ In s (shown_writes allows X).
+  Proof.
+    intros A. pose proof (attribute_is_greatest allows X t n) as Gx. rewrite A in Gx. destruct Gx as (I & Wr & Best).
+    pose proof I as J. apply filter_In in J as [J De]. apply filter_In in J as [G Li]. apply in_records in G.
+    destruct (later_held _ _ G) as [K | H]; [now left | right].
+    assert (S : In c (shown_writes allows Y)).
+    { apply filter_In. split; auto. apply filter_In. split; [now apply in_records |].
+      unfold is_live_write in *. destruct (snd c) as [| | u m v z st] eqn:Ec; try easy.
+      assert (N : is_dead Y u = false) by (apply (C _ _ u H); now left).
+      unfold is_element in *. apply orb_prop in Li as [Li | Li].
+      - apply vertices_in, vertex_stays_in_graph in Li as [K | Li]; [congruence |]. apply vertices_in in Li. now rewrite Li.
+      - destruct (get X u) as [x |] eqn:Gu; [| easy].
+        destruct (stays_visible (u, x)) as [K | V]; [apply filter_In; split; [now apply in_records | exact Li] | |].
+        + simpl in K. congruence.
+        + apply filter_In in V as [V W]. apply in_records in V. simpl in V. rewrite V, W. apply orb_true_r. }
+    pose proof (attribute_is_greatest allows Y t n) as Gy. destruct (attribute allows Y t n) as [s |].
+    - destruct Gy as (Is & Ws & Bs). destruct (eqb c s) eqn:E; [left; apply eqb_eq in E; congruence | right].
+      apply eqb_neq in E. exists s. pose proof (Bs c S Wr E) as Lt. repeat split; auto.
+      intros V. assert (N : s <> c) by congruence. pose proof (Best s V Ws N) as Q. apply ltb_asym in Q. congruence.
+    - now rewrite (Gy c S) in Wr.
   Qed.
 
   (** [INTENT-3] A symbolic claim that is hidden surfaces only if the claim shown in its place has died. *)
@@ -88,6 +124,11 @@ Section Later.
     destruct (stays_visible _ V) as [K | J]; auto. exfalso.
     rewrite (winner_is_greatest D Y h s) in Lt; auto; [discriminate |]. now apply symbolic_in.
   Qed.
+  (** [INTENT-3] [INTENT-4] A kinematic one only if a claim of greater rank that was shown is shown no more: it died,
+      or is hidden itself. *)
+  Theorem kinematic_loser_surfaces h : In h (kinematic X) -> ~ In h (accepted X) -> In h (accepted Y) ->
+    exists s, In s (accepted X) /\ ltb (claim_rank s) (claim_rank h) = false /\ ~ In s (accepted Y).
+  Proof. intros K N A. destruct (displaced Y X h A K) as [B | B]; [easy | exact B]. Qed.
 End Later.
 
 (** ** [INTENT-3] "It can surface in one way only: closure takes the winner away" is not so *)
