@@ -112,7 +112,10 @@ fn text(found: &[RunFound], verdict: Verdict, started: Instant) -> String {
         match &example.trace {
             Some(trace) => add(&mut text, format_args!("; the shortest history:\n{trace}\n")),
             None => {
-                add(&mut text, format_args!("; asked again, the program agrees:\n{}\n", example.disagreement))
+                add(
+                    &mut text,
+                    format_args!("; asked again, the program agrees:\n{}\n", example.disagreement),
+                );
             }
         }
     }

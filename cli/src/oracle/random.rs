@@ -75,7 +75,9 @@ impl Arguments {
             let never = counts.never();
             add(&mut text, format_args!("{} kinds of thing occurred", counts.seen.len()));
             add(&mut text, if never.is_empty() { ", all that had to\n" } else { "; never occurred:\n" });
-            never.iter().for_each(|name| add(&mut text, format_args!("              {name}\n")));
+            for name in never {
+                add(&mut text, format_args!("              {name}\n"));
+            }
         }
         if let Some(shrunk) = &found.shrunk {
             let (history, events) = (&shrunk.history, shrunk.history.events.len());

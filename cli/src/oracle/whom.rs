@@ -39,7 +39,7 @@ impl Whom {
     /// The program as an adapter.
     pub(super) fn adapter(&self) -> Start {
         let start = Start::new(&self.program);
-        let start = self.argument.iter().fold(start, |start, argument| start.with(argument));
+        let start = self.argument.iter().fold(start, Start::with);
         Start { patience: Duration::from_secs(self.patience), ..start }
     }
 
