@@ -50,4 +50,4 @@ Extract Constant ordered_string => "(fun x y -> let c = String.compare x y in if
 
 (** What the driver calls. *)
 Extraction "kernel.ml" x_bottom x_join x_greatest x_digest x_delta_for form_minus state_fault
-  attempt sight seen_shown seen_placement seen_stranded seen_repairs shown_writes by_name has_key.
+  attempt sight seen_shown seen_placement seen_stranded seen_repairs shown_writes by_name has_key in_graph.

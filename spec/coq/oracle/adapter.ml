@@ -71,18 +71,19 @@ let mutate_once author (state, ids, whole) json =
   let ids = ref ids in
   let vertex handle = vertex_of !ids handle in
   let edge json =
-    let plain = { Mutations.vertex; edge = (fun _ -> rejected "an edge is named by its ends"); bind = ignore } in
-    match shown_edge state (Mutations.key plain json) with
+    match shown_edge state (Mutations.key vertex json) with
     | Some (id, _) -> id
     | None -> decline ~kind:"UnknownTarget" "refused" "no such edge is shown"
   in
+  (* Handles name vertices, and an edge's name an edge. *)
+  let target ~is_edge:_ dot = dot in
   let bind members =
     let handle = Json.string (Json.required "as" members) in
     if handle = "root" || List.mem_assoc handle !ids then rejected "the handle %S names a vertex already" handle;
     let id = { replica0 = author.me; sequence = Z.succ (x_greatest state author.me) } in
     ids := (handle, id) :: !ids
   in
-  let mutation = Mutations.read ~extra:[ "as" ] { Mutations.vertex; edge; bind } json in
+  let mutation = Mutations.read ~extra:[ "as" ] { Mutations.vertex; edge; target; bind } json in
   match attempt !case.words state author mutation with
   | Either.Left why ->
     let kind = Errors.refusal why in

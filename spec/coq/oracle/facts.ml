@@ -5,13 +5,13 @@ module Z = Number.Z
 
 let words = ref Dictionary.none
 
+(* A target is not of the kind that it is named as: in the model, where elements are dots, that cannot be said. *)
+exception Other_kind
+
 (* How questions name vertices and edges: by their dots. *)
-let names =
-  {
-    Mutations.vertex = Ids.vertex;
-    edge = (fun json -> Ids.dot (Json.string json));
-    bind = ignore;
-  }
+let names state =
+  let target ~is_edge dot = if in_graph (shade state) dot = is_edge then raise Other_kind else dot in
+  { Mutations.vertex = Ids.vertex; edge = (fun json -> Ids.dot (Json.string json)); target; bind = ignore }
 
 let author text =
   match Ids.split '@' text with
@@ -40,8 +40,12 @@ let answer line =
   | "delta" -> (
     let who, rest = word rest in
     let before, mutation = word rest in
-    let mutation = Mutations.read ~extra:[ "external_id" ] names (Json.read mutation) in
-    match attempt !words (state before) (author who) mutation with
+    let before = state before in
+    match
+      let mutation = Mutations.read ~extra:[ "external_id" ] (names before) (Json.read mutation) in
+      attempt !words before (author who) mutation
+    with
+    | exception Other_kind -> "refused " ^ Errors.refusal UnknownTarget
     | Either.Left why -> "refused " ^ Errors.refusal why
     | Either.Right (delta, after) -> String.concat " " [ "made"; hex delta; hex after ])
   | "view" -> Seen.text !words (state rest)

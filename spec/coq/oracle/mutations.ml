@@ -6,6 +6,7 @@ module Z = Number.Z
 type names = {
   vertex : string -> dot;
   edge : Json.t -> dot;
+  target : is_edge:bool -> dot -> dot;  (** whether it is of the kind that it is named as *)
   bind : (string * Json.t) list -> unit;  (** what else stands in `add_vertex` *)
 }
 
@@ -14,11 +15,11 @@ let attributes json = Order.by_name (List.map (fun (name, value) -> (name, Value
 let attributes_of members =
   match Json.optional "attributes" members with None -> [] | Some json -> attributes json
 
-let key_of names members =
-  let vertex name = names.vertex (Json.string (Json.required name members)) in
+let key_of find members =
+  let vertex name = find (Json.string (Json.required name members)) in
   { key_from = vertex "from"; key_to = vertex "to"; key_label = Json.string (Json.required "label" members) }
 
-let key names json = key_of names (Json.members [ "from"; "label"; "to" ] json)
+let key find json = key_of find (Json.members [ "from"; "label"; "to" ] json)
 
 let update = function
   | name, Json.Null -> (name, None)
@@ -47,22 +48,22 @@ let read ~extra names json =
     made
   | [ ("add_edge", json) ] ->
     let members = Json.members [ "from"; "label"; "to"; "attributes" ] json in
-    AddEdge (key_of names members, attributes_of members)
+    AddEdge (key_of names.vertex members, attributes_of members)
   | [ ("update_attributes", json) ] ->
     let members = Json.members [ "vertex"; "edge"; "attributes" ] json in
     let updates = Order.by_name (List.map update (Json.entries (Json.required "attributes" members))) in
     let target =
       match (Json.optional "vertex" members, Json.optional "edge" members) with
-      | Some vertex, None -> names.vertex (Json.string vertex)
-      | None, Some edge -> names.edge edge
+      | Some vertex, None -> names.target ~is_edge:false (names.vertex (Json.string vertex))
+      | None, Some edge -> names.target ~is_edge:true (names.edge edge)
       | _ -> Json.unreadable "update_attributes has either `vertex` or `edge`"
     in
     UpdateAttributes (target, updates)
-  | [ ("remove_edge", json) ] -> RemoveEdge (key names json)
+  | [ ("remove_edge", json) ] -> RemoveEdge (key names.vertex json)
   | [ ("move_edge", json) ] ->
     let members = Json.members [ "old"; "new"; "attributes" ] json in
     MoveEdge
-      ( key names (Json.required "old" members), key names (Json.required "new" members), attributes_of members )
+      ( key names.vertex (Json.required "old" members), key names.vertex (Json.required "new" members), attributes_of members )
   | [ ("remove_vertex", json) ] ->
     RemoveVertex (names.vertex (Json.string (Json.required "vertex" (Json.members [ "vertex" ] json))))
   | _ -> Json.unreadable "no mutation"
