@@ -1,0 +1,98 @@
+//! What joining a delta removes and adds, found without changing anything. `[spec: JOIN-3]`
+
+use super::graph::Graph;
+use crate::context::Run;
+use crate::dot::Dot;
+use crate::record::Record;
+use crate::state::Delta;
+use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::vec::Vec;
+
+/// The edits of one join. A dot that is replaced, having been used twice, is only added.
+#[derive(Debug, Default)]
+pub(super) struct Plan<'d> {
+    /// Held here, and dead after.
+    pub(super) removed: BTreeSet<Dot>,
+    /// Held after, and not here, or not so.
+    pub(super) added: BTreeMap<Dot, &'d Record>,
+}
+
+impl Graph {
+    /// The edits of joining a well-formed delta: O(delta and what it changes, · log n).
+    pub(super) fn plan<'d>(&self, delta: &'d Delta) -> Plan<'d> {
+        let mut plan = self.merge(delta);
+        let mut dead: Vec<Dot> = plan.removed.iter().copied().collect();
+        for run in delta.context().unseen_runs_by(&self.context) {
+            for run in delta.dead_within(run) {
+                dead.extend(self.waiting_for(run).filter(|dot| !plan.added.contains_key(dot)));
+            }
+        }
+        loop {
+            while let Some(dot) = dead.pop() {
+                if self.records.contains(&dot) {
+                    plan.removed.insert(dot);
+                }
+                let new = self
+                    .anchored_to(dot)
+                    .filter(|dot| !plan.removed.contains(dot) && !plan.added.contains_key(dot));
+                dead.extend(new);
+            }
+            let is_dead = |anchor: Dot| {
+                let held = plan.added.contains_key(&anchor)
+                    || self.records.contains(&anchor) && !plan.removed.contains(&anchor);
+                !held && (self.context.contains(anchor) || delta.context().contains(anchor))
+            };
+            dead.extend(
+                plan.added.iter().filter(|(_, record)| record.anchors().any(is_dead)).map(|(&dot, _)| dot),
+            );
+            if dead.is_empty() {
+                return plan;
+            }
+            for dot in &dead {
+                plan.added.remove(dot);
+            }
+        }
+    }
+
+    /// The pointwise maximum, as edits. `[spec: JOIN-1]` `[spec: JOIN-2]`
+    fn merge<'d>(&self, delta: &'d Delta) -> Plan<'d> {
+        let mut plan = Plan::default();
+        for run in delta.context().runs() {
+            let held = self.held_in(run).filter(|&dot| !delta.holds(dot));
+            plan.removed.extend(held);
+        }
+        for (dot, theirs) in delta.records() {
+            let is_new = match self.record(dot) {
+                Some(ours) => ours < *theirs,
+                None => !self.context.contains(dot),
+            };
+            if is_new {
+                plan.added.insert(dot, theirs);
+            }
+        }
+        plan
+    }
+
+    /// The dots of a run that are held here.
+    pub(super) fn held_in(&self, run: Run) -> impl Iterator<Item = Dot> + '_ {
+        let last = *run.bounds().end();
+        self.records.range(&run.start()).map(|(&dot, _)| dot).take_while(move |&dot| dot <= last)
+    }
+
+    /// The records here that are anchored to a dot.
+    fn anchored_to(&self, anchor: Dot) -> impl Iterator<Item = Dot> + '_ {
+        self.edges_at(anchor).chain(self.writes_on(anchor).map(|(key, _)| key.2))
+    }
+
+    /// The records here that are anchored to dots of a run, none of which is held here.
+    fn waiting_for(&self, run: Run) -> impl Iterator<Item = Dot> + '_ {
+        use super::held::NONE;
+        let (first, last) = (run.start(), *run.bounds().end());
+        let near = self.claims.range(&(first, 0, NONE, NONE)).map(|(key, ())| (key.0, key.3));
+        let far = self.ends.range(&(first, NONE)).map(|(key, ())| *key);
+        let writes = self.writes.range(&(first, 0, NONE)).map(|(key, _)| (key.0, key.2));
+        let within = move |&(anchor, _): &(Dot, Dot)| anchor <= last;
+        let all = near.take_while(within).chain(far.take_while(within)).chain(writes.take_while(within));
+        all.map(|(_, dot)| dot)
+    }
+}

@@ -1,0 +1,152 @@
+//! The replica and the readable reference agree, after every step, on states, views, changes and errors.
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
+
+mod replica_support;
+
+use dsr_core::{Dictionary, MutationKind, State, ValueType, view};
+use dsr_testkit::{Anchors, Fate, Universe, candidates, dictionary, state, states};
+use proptest::prelude::*;
+use replica_support::Pair;
+
+/// Open, open with functional and typed names, closed to almost everything.
+fn dictionaries() -> [Dictionary; 3] {
+    let mut closed = Dictionary { closed: true, ..Dictionary::open().with_functional("in") };
+    closed.attributes.insert("a".into(), ValueType::Int);
+    [Dictionary::open(), dictionary(), closed]
+}
+
+/// Every mutation that there is in a state, allowed or not; how many were allowed.
+#[track_caller]
+fn try_mutations(pair: &Pair, limit: usize) -> usize {
+    let shown = view(&pair.state, &pair.dictionary);
+    let mut allowed = 0;
+    for kind in MutationKind::ALL {
+        let candidates = candidates(&shown, kind);
+        let step = candidates.len().div_ceil(limit).max(1);
+        for mutation in candidates.iter().step_by(step) {
+            allowed += usize::from(pair.clone().mutate(mutation).is_ok());
+        }
+    }
+    allowed
+}
+
+/// Small universes: two kinematic cycles and two parents; functional claims and equal keys; names; paths.
+const UNIVERSES: [&str; 5] = [
+    "r1.1 vertex t a @1
+     r2.1 vertex t b @1
+     r1.2 edge root -RT-> r1.1 @1
+     r1.3 edge r2.1 -RT-> r1.1 @2
+     r2.2 edge root -RT-> r2.1 @1
+     r2.3 edge r1.1 -RT-> r2.1 @2
+     r2.4 write r2.3 a=5 @3",
+    "r1.1 vertex t a @1
+     r2.1 vertex t a @1
+     r1.2 edge r1.1 -in-> root @1
+     r1.3 edge r1.1 -in-> r2.1 @1
+     r2.2 edge r1.1 -in-> r2.1 @2
+     r2.4 edge r2.1 -RT-> r1.1 @3",
+    "r1.1 vertex t a @1
+     r1.2 vertex t b @1
+     r1.3 vertex t c @1
+     r1.4 edge r1.1 -RT-> r1.2 @2
+     r1.5 edge r1.2 -RT-> r1.3 @3
+     r1.6 edge r1.3 -RT-> r1.1 @4
+     r2.1 edge r1.3 -RT-> r1.2 @5",
+    "r1.1 vertex t a @1
+     r1.2 edge root -near-> r1.1 @1
+     r1.3 vertex t b @2
+     r1.4 edge r1.3 -near-> r1.1 @2
+     r2.1 vertex t root @1
+     r2.2 edge r2.1 -near-> r1.3 @3
+     r2.3 edge r2.1 -near-> root @3",
+    "r1.1 vertex t a @1
+     r1.2 edge r1.1 -near-> root @1
+     r1.3 write r1.1 a=1 @2
+     r2.1 write r1.1 a=2 @2
+     r2.2 write r1.2 a=text @2
+     r2.3 write r1.2 b=text @3",
+];
+
+/// Every state over small universes, joined with every delta of at most two dots and with some large ones.
+/// `[spec: REPLICA-1]` `[spec: EVENT-1]` `[spec: EVENT-2]` `[spec: EVENT-3]` `[spec: EVENT-4]`
+#[test]
+fn differential_every_small_join() {
+    let (mut joins, mut told) = (0, 0);
+    for text in UNIVERSES {
+        let universe = Universe::of(&state(text));
+        let mut all: Vec<State> = universe.all_states();
+        all.dedup();
+        let seen = |fates: &Vec<Fate>| fates.iter().filter(|fate| **fate != Fate::Unseen).count();
+        let deltas: Vec<State> = universe
+            .all_fates()
+            .filter(|fates| seen(fates) <= 2)
+            .map(|fates| universe.state(&fates))
+            .collect();
+        for (at, start) in all.iter().enumerate() {
+            let dictionary = dictionaries()[at % 3].clone();
+            let pair = Pair::of(1, start, dictionary);
+            for delta in deltas.iter().chain(all.iter().skip(at % 41).step_by(41)) {
+                told += pair.clone().apply(delta);
+                joins += 1;
+            }
+        }
+    }
+    println!("{joins} joins, {told} changes");
+    assert!(joins > 100_000 && told > joins, "{joins} joins, {told} changes");
+}
+
+/// Every mutation in every state over small universes: deltas, errors, what is changed, and that a refusal
+/// changes nothing. `[spec: REPLICA-1]` `[spec: EVENT-1]`
+#[test]
+fn differential_every_mutation_in_every_small_state() {
+    let mut allowed = 0;
+    for text in UNIVERSES {
+        for (at, start) in Universe::of(&state(text)).all_states().iter().enumerate() {
+            let pair = Pair::of(3, start, dictionaries()[at % 3].clone());
+            pair.check_thoroughly(&State::new());
+            allowed += try_mutations(&pair, 24);
+        }
+    }
+    println!("{allowed} mutations");
+    assert!(allowed > 10_000, "{allowed}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(3000))]
+
+    /// Hostile states, one joined after the other. `[spec: REPLICA-1]` `[spec: EVENT-1]`
+    #[test]
+    fn differential_joins_of_any_states(parts in states(4, 24, Anchors::Right), which in 0..3_usize) {
+        let mut pair = Pair::new(1, dictionaries()[which].clone());
+        for part in &parts {
+            pair.apply(part);
+        }
+        pair.check_thoroughly(&parts[0]);
+        pair.apply(&parts[0]);
+        try_mutations(&pair, 5);
+    }
+
+    /// Records anchored to what is no vertex, to writes, to each other. `[spec: REPLICA-1]`
+    #[test]
+    fn differential_whatever_the_anchors(parts in states(4, 16, Anchors::Any), which in 0..3_usize) {
+        let mut pair = Pair::new(1, dictionaries()[which].clone());
+        for part in &parts {
+            pair.apply(part);
+        }
+        pair.check_thoroughly(&parts[1]);
+    }
+
+    /// Dots used twice, for records of any kinds. `[spec: CRASH-3]` `[spec: JOIN-2]` `[spec: REPLICA-1]`
+    #[test]
+    fn differential_dots_used_twice(
+        mine in states(2, 12, Anchors::Any),
+        theirs in states(2, 12, Anchors::Any),
+        which in 0..3_usize,
+    ) {
+        let mut pair = Pair::new(1, dictionaries()[which].clone());
+        for part in [&mine[0], &theirs[0], &mine[1], &theirs[1]] {
+            pair.apply(part);
+        }
+        pair.check_thoroughly(&mine[0]);
+    }
+}
