@@ -3,8 +3,11 @@
 
 mod replica_support;
 
-use dsr_core::{Dictionary, MutationKind, State, ValueType, view};
+use dsr_core::{
+    Dictionary, Dot, Edge, MutationKind, Record, ReplicaId, State, ValueType, Vertex, VertexId, view,
+};
 use dsr_testkit::{Anchors, Fate, Universe, candidates, dictionary, state, states};
+use proptest::collection::vec;
 use proptest::prelude::*;
 use replica_support::Pair;
 
@@ -148,5 +151,52 @@ proptest! {
             pair.apply(part);
         }
         pair.check_thoroughly(&mine[0]);
+    }
+
+    /// Few vertices and many claims of any rank between them, that come and go one by one or in groups: chains
+    /// of claims that unseat each other, cycles, components that fall apart and are joined again.
+    /// `[spec: REPLICA-1]` `[spec: VIEW-3]` `[spec: VIEW-5]`
+    #[test]
+    fn differential_claims_that_come_and_go(
+        steps in vec((vec((0..7_u64, 0..6_u64, 1..12_u64, 0..4_usize, any::<bool>()), 1..4), any::<bool>()), 1..40),
+        linked in 0..6_u64,
+    ) {
+        let agent = ReplicaId::agent;
+        let vertex = |n: u64| if n == 0 { VertexId::ROOT } else { VertexId(Dot::new(agent(1), n)) };
+        let vertices = (1..7).map(|n| {
+            let (name, stamp) = (format!("v{n}").into(), 1);
+            (vertex(n).0, Record::Vertex(Vertex { vertex_type: "t".into(), name, external_id: None, stamp }))
+        });
+        let links = (1..=linked).map(|n| {
+            let edge = Edge { from: vertex(n), to: VertexId::ROOT, label: "near".into(), stamp: 1 };
+            (Dot::new(agent(3), n), Record::Edge(edge))
+        });
+        let records: Vec<(Dot, Record)> = vertices.chain(links).collect();
+        let context = records.iter().map(|(dot, _)| *dot).collect();
+        let mut pair = Pair::of(9, &State::assemble(records, context), dictionary());
+        let mut made: Vec<Dot> = (1..=linked).map(|n| Dot::new(agent(3), n)).collect();
+        for (claims, waits) in steps {
+            let mut delta = State::new();
+            for (from, to, stamp, label, kills) in claims {
+                if kills && !made.is_empty() {
+                    let dead = made[usize::try_from(from * 7 + to + stamp).unwrap() % made.len()];
+                    delta.join(&State::assemble([], [dead].into_iter().collect()));
+                    continue;
+                }
+                let to = 1 + to;
+                if from == to {
+                    continue;
+                }
+                let dot = Dot::new(agent(2), 1 + u64::try_from(made.len()).unwrap());
+                made.push(dot);
+                let label = ["RT", "RT", "RT", "near"][label].into();
+                let edge = Edge { from: vertex(from), to: vertex(to), label, stamp };
+                delta.join(&State::assemble([(dot, Record::Edge(edge))], [dot].into_iter().collect()));
+            }
+            pair.apply(&delta);
+            if waits {
+                try_mutations(&pair, 4);
+            }
+        }
     }
 }

@@ -118,7 +118,6 @@ impl Settling<'_> {
         if !self.graph.strays.is_empty() {
             touched.extend(ends);
             touched.extend(self.gone_vertices().map(|(dot, _)| dot));
-            touched.extend(self.detached_before.keys());
         }
         for vertex in touched {
             if let Some(&leader) = self.graph.strays.get(&vertex) {

@@ -1,0 +1,185 @@
+//! Nanoseconds per operation of a `Replica`, by the size of its graph, and bytes per vertex.
+//!
+//! `cargo run --release -p dsr-core --example replica_speed [LARGEST]`; LARGEST is a power of ten, 1000000
+//! unless given. Prints a table; asserts nothing about time.
+#![allow(clippy::unwrap_used, clippy::cast_precision_loss, reason = "a measurement for people")]
+
+use dsr_core::{
+    AttributeMap, AttributeUpdates, Delta, Dictionary, EdgeKey, Mutation, NewVertex, RT, Replica, ReplicaId,
+    Value, VertexId, VertexLink, delta_for, digest, encode,
+};
+use std::hint::black_box;
+use std::time::Instant;
+
+/// Children of a vertex.
+const FAN: usize = 10;
+
+/// Noise of Knuth's constants: the same on every run.
+struct Noise(u64);
+
+impl Noise {
+    fn below(&mut self, n: usize) -> usize {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        usize::try_from(self.0 >> 33).unwrap() % n
+    }
+}
+
+fn set(vertex: VertexId, name: &str, value: i32) -> Mutation {
+    let updates = AttributeUpdates::from([(name.into(), Some(Value::Int(value)))]);
+    Mutation::UpdateAttributes { target: dsr_core::ElementId::Vertex(vertex), updates }
+}
+
+fn resident_bytes() -> f64 {
+    let statm = std::fs::read_to_string("/proc/self/statm").unwrap_or_default();
+    statm.split(' ').nth(1).and_then(|pages| pages.parse::<f64>().ok()).unwrap_or(0.0) * 4096.0
+}
+
+/// A tree of `n` vertices, each the `FAN`-th part down, and the vertices.
+fn tree(n: usize, agent: u32) -> (Replica, Vec<VertexId>) {
+    let mut replica = Replica::new(ReplicaId::agent(agent), Dictionary::open().with_functional("in"));
+    let mut vertices: Vec<VertexId> = Vec::with_capacity(n);
+    for at in 0..n {
+        let parent = if at < FAN { VertexId::ROOT } else { vertices[at / FAN] };
+        let vertex = NewVertex::new("thing", &format!("thing-{agent}-{at}"));
+        let made = replica.mutate(&Mutation::AddVertex { vertex, link: VertexLink::child_of(parent) }, 0);
+        vertices.push(VertexId(made.unwrap().delta.records().next().unwrap().0));
+    }
+    (replica, vertices)
+}
+
+/// Nanoseconds per turn.
+fn time(turns: usize, mut turn: impl FnMut(usize)) -> f64 {
+    let start = Instant::now();
+    for at in 0..turns {
+        turn(at);
+    }
+    start.elapsed().as_nanos() as f64 / turns as f64
+}
+
+fn deltas(from: &mut Replica, mutations: impl Iterator<Item = Mutation>) -> Vec<Delta> {
+    mutations.map(|mutation| from.mutate(&mutation, 0).unwrap().delta).collect()
+}
+
+fn row(n: usize) -> Vec<(&'static str, f64)> {
+    let mut row = Vec::new();
+    let before = resident_bytes();
+    let start = Instant::now();
+    let (mut replica, vertices) = tree(n, 1);
+    row.push(("add vertex", start.elapsed().as_nanos() as f64 / n as f64));
+    row.push(("bytes/vertex", (resident_bytes() - before) / n as f64));
+    let mut noise = Noise(1);
+    let turns = 20_000;
+
+    let mut other = Replica::new(ReplicaId::agent(2), Dictionary::open().with_functional("in"));
+    let state = replica.state();
+    let start = Instant::now();
+    other.apply(&state);
+    row.push(("join into empty /vertex", start.elapsed().as_nanos() as f64 / n as f64));
+    drop(state);
+
+    let targets: Vec<VertexId> = (0..turns).map(|_| vertices[noise.below(n)]).collect();
+    let writes = deltas(&mut other, targets.iter().map(|&target| set(target, "level", 1)));
+    row.push(("apply write", time(turns, |at| drop(black_box(replica.apply(&writes[at]))))));
+    row.push(("apply write again", time(turns, |at| drop(black_box(replica.apply(&writes[at]))))));
+    let hot: Vec<Mutation> = (0..turns).map(|at| set(targets[at % 8], "level", 2)).collect();
+    let writes = deltas(&mut other, hot.iter().cloned());
+    row.push(("apply write, 8 hot", time(turns, |at| drop(black_box(replica.apply(&writes[at]))))));
+    let updates: Vec<Mutation> = targets.iter().map(|&target| set(target, "level", 3)).collect();
+    row.push((
+        "update + encode",
+        time(turns, |at| {
+            black_box(encode(&replica.mutate(&updates[at], 0).unwrap().delta));
+        }),
+    ));
+    row.push((
+        "update + encode, 8 hot",
+        time(turns, |at| {
+            black_box(encode(&replica.mutate(&hot[at], 0).unwrap().delta));
+        }),
+    ));
+    let moves: Vec<Mutation> = {
+        // Leaves, there and back between two parents.
+        let leaf = |at: usize| vertices[n - 1 - (at / 2) % (n / 4)];
+        let key = |parent, child| EdgeKey::new(parent, RT, child);
+        let home = |at: usize| vertices[(n - 1 - (at / 2) % (n / 4)) / FAN];
+        let away = vertices[FAN - 1];
+        (0..turns / 2 * 2)
+            .map(|at| {
+                let (from, to) = (key(home(at), leaf(at)), key(away, leaf(at)));
+                let (from, to) = if at % 2 == 0 { (from, to) } else { (to, from) };
+                Mutation::MoveEdge { from, to, attributes: AttributeMap::new() }
+            })
+            .filter(|mutation| !matches!(mutation, Mutation::MoveEdge { from, to, .. } if from == to))
+            .collect()
+    };
+    row.push((
+        "move in the tree",
+        time(moves.len(), |at| drop(black_box(replica.mutate(&moves[at], 0).unwrap()))),
+    ));
+    let edges: Vec<Mutation> = (0..turns)
+        .map(|at| {
+            let (from, to) = (targets[at], targets[(at + 1) % turns]);
+            Mutation::AddEdge { key: EdgeKey::new(from, "near", to), attributes: AttributeMap::new() }
+        })
+        .collect();
+    row.push((
+        "add edge, remove it",
+        time(turns, |at| {
+            if let (Ok(_), Mutation::AddEdge { key, .. }) = (replica.mutate(&edges[at], 0), &edges[at]) {
+                black_box(replica.mutate(&Mutation::RemoveEdge { key: key.clone() }, 0).unwrap());
+            }
+        }),
+    ));
+    row.push(("look up a name", {
+        let names: Vec<_> = targets.iter().map(|&target| replica.vertex(target).unwrap().name).collect();
+        time(turns, |at| drop(black_box(replica.vertex_by_name(&names[at]))))
+    }));
+    row.push(("snapshot", time(turns, |_| drop(black_box(replica.snapshot())))));
+    let mut kept = replica.snapshot();
+    row.push((
+        "update + encode + snapshot",
+        time(turns, |at| {
+            black_box(encode(&replica.mutate(&updates[at], 0).unwrap().delta));
+            kept = replica.snapshot();
+        }),
+    ));
+    drop(kept);
+    row
+}
+
+fn main() {
+    let largest = std::env::args().nth(1).and_then(|text| text.parse().ok()).unwrap_or(1_000_000);
+    let sizes: Vec<usize> =
+        std::iter::successors(Some(100), |n| Some(n * 10)).take_while(|n| *n <= largest).collect();
+    let rows: Vec<_> = sizes.iter().map(|&n| row(n)).collect();
+    print!("{:28}", "ns");
+    sizes.iter().for_each(|n| print!("{n:>10}"));
+    println!("  exponent");
+    for line in 0..rows[0].len() {
+        print!("{:28}", rows[0][line].0);
+        rows.iter().for_each(|row| print!("{:>10.0}", row[line].1));
+        let (first, last) = (rows[0][line].1, rows[rows.len() - 1][line].1);
+        let span = sizes[sizes.len() - 1] as f64 / sizes[0] as f64;
+        println!("{:>10.3}", (last / first).ln() / span.ln());
+    }
+
+    let (mut left, _) = tree(100_000, 1);
+    let (right, _) = tree(100_000, 2);
+    let state = right.state();
+    let start = Instant::now();
+    left.apply(&state);
+    println!("join of two graphs of 100000 vertices: {:?}", start.elapsed());
+    let (mut left, _) = tree(100_000, 1);
+    let mut other = Replica::new(ReplicaId::agent(3), Dictionary::open());
+    other.apply(&left.state());
+    let state = left.state();
+    let start = Instant::now();
+    left.apply(&state);
+    println!("join of a graph of 100000 vertices with itself: {:?}", start.elapsed());
+    let start = Instant::now();
+    let delta = delta_for(&right.state(), &digest(&state));
+    println!("delta for a graph that lacks it all, by the reference: {:?}", start.elapsed());
+    let start = Instant::now();
+    assert_eq!(right.delta_for(&left.digest()), delta);
+    println!("the same by the replica: {:?}", start.elapsed());
+}
