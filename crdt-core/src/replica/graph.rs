@@ -32,6 +32,8 @@ pub struct Graph {
     pub(super) claims: Map<ClaimKey, ()>,
     /// Every edge claim, by the other of its ends.
     pub(super) ends: Map<(Dot, Dot), ()>,
+    /// Every record, by each anchor of it that is not held as a vertex or an edge: few, and mostly none.
+    pub(super) loose: Map<(Dot, Dot), ()>,
     /// Every vertex, by the hash of its name.
     pub(super) named: Map<(u64, Dot), ()>,
     /// Every vertex, by its type.
@@ -98,6 +100,7 @@ impl Graph {
             writes: Map::default(),
             claims: Map::default(),
             ends: Map::default(),
+            loose: Map::default(),
             named: Map::default(),
             typed: Map::default(),
             labelled: Map::default(),
@@ -118,12 +121,59 @@ impl Graph {
             Record::Write(write) => Held::Write(self.file_write(dot, write)),
         };
         self.records.insert(dot, held);
+        for anchor in record.anchors() {
+            if !self.is_element(anchor) {
+                self.loose.insert((anchor, dot), ());
+            }
+        }
+        if !matches!(record, Record::Write(_)) {
+            self.settle_down(dot);
+        }
         let stamp = record.stamp();
         match self.stamps.get_mut(&stamp) {
             Some(count) => *count += 1,
             None => {
                 self.stamps.insert(stamp, 1);
             }
+        }
+    }
+
+    /// Whether records can be anchored to a dot: the root, a vertex, an edge.
+    fn is_element(&self, dot: Dot) -> bool {
+        dot == NONE || matches!(self.records.get(&dot), Some(Held::Vertex(_) | Held::Edge(_)))
+    }
+
+    /// What waited for a dot has found it.
+    fn settle_down(&mut self, dot: Dot) {
+        if !self.loose.is_empty() {
+            let waiting: alloc::vec::Vec<Dot> = self.loose_at(dot).collect();
+            for other in waiting {
+                self.loose.remove(&(dot, other));
+            }
+        }
+    }
+
+    /// The records that wait for a dot, or are anchored to a write.
+    fn loose_at(&self, anchor: Dot) -> impl Iterator<Item = Dot> + '_ {
+        let loose = self.loose.range(&(anchor, NONE)).map(|(key, ())| *key);
+        loose.take_while(move |key| key.0 == anchor).map(|key| key.1)
+    }
+
+    /// The records that are anchored to a dot.
+    pub(super) fn anchored_to(&self, anchor: Dot) -> impl Iterator<Item = Dot> + '_ {
+        let element = self.is_element(anchor).then_some(anchor).into_iter();
+        let firm = element
+            .flat_map(|anchor| self.edges_at(anchor).chain(self.writes_on(anchor).map(|(key, _)| key.2)));
+        let loose = (!self.loose.is_empty()).then_some(anchor).into_iter();
+        firm.chain(loose.flat_map(|anchor| self.loose_at(anchor)))
+    }
+
+    /// A vertex or edge has been replaced by a write: what was anchored to it is so to a write now.
+    pub(super) fn let_loose(&mut self, dot: Dot) {
+        let edges = self.edges_at(dot).chain(self.writes_on(dot).map(|(key, _)| key.2));
+        let left: alloc::vec::Vec<Dot> = edges.collect();
+        for other in left {
+            self.loose.insert((dot, other), ());
         }
     }
 
@@ -188,6 +238,16 @@ impl Graph {
                 gone.write.as_ref().map_or(0, |write| write.stamp)
             }
         };
+        if !self.loose.is_empty() {
+            let anchors = match &gone.held {
+                Held::Vertex(_) => [NONE; 2],
+                Held::Edge(edge) => [edge.from, edge.to],
+                Held::Write(at) => [at.target, NONE],
+            };
+            for anchor in anchors {
+                self.loose.remove(&(anchor, dot));
+            }
+        }
         match self.stamps.get_mut(&stamp) {
             Some(count) if *count > 1 => *count -= 1,
             _ => {

@@ -13,6 +13,7 @@
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::borrow::Borrow;
+use core::iter::Zip;
 use core::slice;
 
 /// The most entries of a node.
@@ -29,11 +30,79 @@ pub(crate) struct Map<K, V> {
 
 #[derive(Clone, Debug)]
 enum Node<K, V> {
-    /// Ascending.
-    Leaf(Vec<(K, V)>),
+    /// Entries, ascending.
+    Leaf(List<K, V>),
     /// Each child with a key that is above all keys before it and not above any key in it; the first child's
     /// key is not looked at.
-    Inner(Vec<(K, Arc<Self>)>),
+    Inner(List<K, Arc<Self>>),
+}
+
+/// Keys, and beside each what belongs to it: apart, since a search reads keys only.
+#[derive(Debug)]
+struct List<K, V> {
+    keys: Vec<K>,
+    values: Vec<V>,
+}
+
+impl<K: Clone, V: Clone> Clone for List<K, V> {
+    fn clone(&self) -> Self {
+        let (mut keys, mut values) = (Vec::with_capacity(FULL), Vec::with_capacity(FULL));
+        keys.extend_from_slice(&self.keys);
+        values.extend_from_slice(&self.values);
+        Self { keys, values }
+    }
+}
+
+impl<K, V> List<K, V> {
+    const fn new() -> Self {
+        Self { keys: Vec::new(), values: Vec::new() }
+    }
+
+    fn len(&self) -> usize {
+        self.keys.len()
+    }
+
+    fn insert(&mut self, at: usize, (key, value): (K, V)) {
+        self.keys.insert(at, key);
+        self.values.insert(at, value);
+    }
+
+    fn remove(&mut self, at: usize) -> (K, V) {
+        (self.keys.remove(at), self.values.remove(at))
+    }
+
+    fn split_off(&mut self, at: usize) -> Self {
+        let (mut keys, mut values) = (Vec::with_capacity(FULL), Vec::with_capacity(FULL));
+        keys.extend(self.keys.drain(at..));
+        values.extend(self.values.drain(at..));
+        Self { keys, values }
+    }
+
+    fn append(&mut self, other: &mut Self) {
+        self.keys.append(&mut other.keys);
+        self.values.append(&mut other.values);
+    }
+
+    /// Inserts; if there is no room, into the one of two halves that it belongs to, of which the right one is
+    /// returned.
+    fn insert_or_split(&mut self, at: usize, entry: (K, V)) -> Option<Self> {
+        if self.len() < FULL {
+            self.insert(at, entry);
+            return None;
+        }
+        if at == FULL {
+            let mut right = Self { keys: Vec::with_capacity(2), values: Vec::with_capacity(2) };
+            right.insert(0, entry);
+            return Some(right);
+        }
+        // Two entries at least go to the right, so that no inner node has one child for long.
+        let mut right = self.split_off(if at <= FULL / 2 { FULL / 2 } else { at.min(FULL - 2) });
+        match at.checked_sub(self.len()) {
+            Some(at) if at > 0 => right.insert(at, entry),
+            _ => self.insert(at, entry),
+        }
+        Some(right)
+    }
 }
 
 impl<K, V> Clone for Map<K, V> {
@@ -44,30 +113,13 @@ impl<K, V> Clone for Map<K, V> {
 
 impl<K, V> Default for Map<K, V> {
     fn default() -> Self {
-        Self { root: Arc::new(Node::Leaf(Vec::new())), len: 0 }
+        Self { root: Arc::new(Node::Leaf(List::new())), len: 0 }
     }
 }
 
 /// Which child of an inner node a key belongs to.
-fn child_of<K: Borrow<Q>, Q: Ord + ?Sized, C>(children: &[(K, C)], key: &Q) -> usize {
-    children.partition_point(|(least, _)| least.borrow() <= key).saturating_sub(1)
-}
-
-/// Splits a full list so that the entry that goes to `at` has room in the part returned or in the one left.
-fn split<T>(list: &mut Vec<T>, at: usize) -> Vec<T> {
-    // Two entries at least stay in each part of an inner node, so that none has one child for long.
-    let at = if at <= FULL / 2 { FULL / 2 } else { at.min(FULL - 2) };
-    let mut right = Vec::with_capacity(FULL);
-    right.extend(list.drain(at..));
-    right
-}
-
-/// Room for one more, never more than for a full node.
-fn reserve<T>(list: &mut Vec<T>) {
-    if list.len() == list.capacity() {
-        let room = list.len().max(2).min(FULL.saturating_sub(list.len())).max(1);
-        list.reserve_exact(room);
-    }
+fn child_of<K: Borrow<Q>, Q: Ord + ?Sized>(keys: &[K], key: &Q) -> usize {
+    keys.partition_point(|least| least.borrow() <= key).saturating_sub(1)
 }
 
 type Inserted<K, V> = (Option<V>, Option<(K, Arc<Node<K, V>>)>);
@@ -83,43 +135,18 @@ impl<K: Ord + Clone, V: Clone> Node<K, V> {
     /// Inserts; the value replaced, and a right neighbour if the node was split.
     fn insert(&mut self, key: K, value: V) -> Inserted<K, V> {
         match self {
-            Self::Leaf(entries) => {
-                let at = match entries.binary_search_by(|(known, _)| known.cmp(&key)) {
-                    Ok(at) => return (Some(core::mem::replace(&mut entries[at].1, value)), None),
-                    Err(at) => at,
-                };
-                if entries.len() < FULL {
-                    reserve(entries);
-                    entries.insert(at, (key, value));
-                    return (None, None);
+            Self::Leaf(entries) => match entries.keys.binary_search(&key) {
+                Ok(at) => (Some(core::mem::replace(&mut entries.values[at], value)), None),
+                Err(at) => {
+                    let right = entries.insert_or_split(at, (key, value));
+                    (None, right.map(|right| (right.keys[0].clone(), Arc::new(Self::Leaf(right)))))
                 }
-                if at == FULL {
-                    let right = Self::Leaf(Vec::from([(key.clone(), value)]));
-                    return (None, Some((key, Arc::new(right))));
-                }
-                let mut right = split(entries, at);
-                match at.checked_sub(entries.len()) {
-                    Some(at) if at > 0 => right.insert(at, (key, value)),
-                    _ => entries.insert(at, (key, value)),
-                }
-                (None, Some((right[0].0.clone(), Arc::new(Self::Leaf(right)))))
-            }
+            },
             Self::Inner(children) => {
-                let at = child_of(children, &key);
-                let (old, added) = Arc::make_mut(&mut children[at].1).insert(key, value);
-                let Some(added) = added else { return (old, None) };
-                let at = at + 1;
-                if children.len() < FULL {
-                    reserve(children);
-                    children.insert(at, added);
-                    return (old, None);
-                }
-                let mut right = split(children, at);
-                match at.checked_sub(children.len()) {
-                    Some(at) if at > 0 => right.insert(at, added),
-                    _ => children.insert(at, added),
-                }
-                (old, Some((right[0].0.clone(), Arc::new(Self::Inner(right)))))
+                let at = child_of(&children.keys, &key);
+                let (old, added) = Arc::make_mut(&mut children.values[at]).insert(key, value);
+                let right = added.and_then(|added| children.insert_or_split(at + 1, added));
+                (old, right.map(|right| (right.keys[0].clone(), Arc::new(Self::Inner(right)))))
             }
         }
     }
@@ -127,12 +154,12 @@ impl<K: Ord + Clone, V: Clone> Node<K, V> {
     fn remove(&mut self, key: &K) -> Option<V> {
         match self {
             Self::Leaf(entries) => {
-                let at = entries.binary_search_by(|(known, _)| known.cmp(key)).ok()?;
+                let at = entries.keys.binary_search(key).ok()?;
                 Some(entries.remove(at).1)
             }
             Self::Inner(children) => {
-                let at = child_of(children, key);
-                let child = Arc::make_mut(&mut children[at].1);
+                let at = child_of(&children.keys, key);
+                let child = Arc::make_mut(&mut children.values[at]);
                 let old = child.remove(key)?;
                 if child.size() < THIN && children.len() > 1 {
                     let left = at.min(children.len() - 2);
@@ -145,17 +172,17 @@ impl<K: Ord + Clone, V: Clone> Node<K, V> {
 }
 
 /// Unites the children at `left` and after it, or shares their entries evenly if these are too many for one.
-fn balance<K: Ord + Clone, V: Clone>(children: &mut Vec<(K, Arc<Node<K, V>>)>, left: usize) {
+fn balance<K: Ord + Clone, V: Clone>(children: &mut List<K, Arc<Node<K, V>>>, left: usize) {
     let (least, mut right) = children.remove(left + 1);
-    let left_node = Arc::make_mut(&mut children[left].1);
+    let left_node = Arc::make_mut(&mut children.values[left]);
     let rest = match (left_node, Arc::make_mut(&mut right)) {
         (Node::Leaf(left), Node::Leaf(right)) => {
-            level(left, right).map(|rest| (rest[0].0.clone(), Node::Leaf(rest)))
+            level(left, right).map(|rest| (rest.keys[0].clone(), Node::Leaf(rest)))
         }
         (Node::Inner(left), Node::Inner(right)) => {
             // The first key was not looked at so far.
-            right[0].0 = least;
-            level(left, right).map(|rest| (rest[0].0.clone(), Node::Inner(rest)))
+            right.keys[0] = least;
+            level(left, right).map(|rest| (rest.keys[0].clone(), Node::Inner(rest)))
         }
         // All leaves are on one level.
         _ => None,
@@ -166,7 +193,7 @@ fn balance<K: Ord + Clone, V: Clone>(children: &mut Vec<(K, Arc<Node<K, V>>)>, l
 }
 
 /// Moves all to the left, and half of it back if it is too much for one node.
-fn level<T>(left: &mut Vec<T>, right: &mut Vec<T>) -> Option<Vec<T>> {
+fn level<K, V>(left: &mut List<K, V>, right: &mut List<K, V>) -> Option<List<K, V>> {
     left.append(right);
     (left.len() > FULL).then(|| left.split_off(left.len() / 2))
 }
@@ -188,10 +215,10 @@ impl<K: Ord + Clone, V: Clone> Map<K, V> {
         loop {
             match node {
                 Node::Leaf(entries) => {
-                    let at = entries.binary_search_by(|(known, _)| known.borrow().cmp(key)).ok()?;
-                    return Some(&entries[at].1);
+                    let at = entries.keys.binary_search_by(|known| known.borrow().cmp(key)).ok()?;
+                    return Some(&entries.values[at]);
                 }
-                Node::Inner(children) => node = &children[child_of(children, key)].1,
+                Node::Inner(children) => node = &children.values[child_of(&children.keys, key)],
             }
         }
     }
@@ -209,12 +236,12 @@ impl<K: Ord + Clone, V: Clone> Map<K, V> {
         loop {
             match node {
                 Node::Leaf(entries) => {
-                    let at = entries.binary_search_by(|(known, _)| known.cmp(key)).ok()?;
-                    return Some(&mut entries[at].1);
+                    let at = entries.keys.binary_search(key).ok()?;
+                    return Some(&mut entries.values[at]);
                 }
                 Node::Inner(children) => {
-                    let at = child_of(children, key);
-                    node = Arc::make_mut(&mut children[at].1);
+                    let at = child_of(&children.keys, key);
+                    node = Arc::make_mut(&mut children.values[at]);
                 }
             }
         }
@@ -226,8 +253,9 @@ impl<K: Ord + Clone, V: Clone> Map<K, V> {
         let (old, added) = root.insert(key, value);
         if let Some((least, right)) = added {
             // The first key is not looked at: any will do.
-            let left = core::mem::replace(&mut self.root, Arc::new(Node::Leaf(Vec::new())));
-            self.root = Arc::new(Node::Inner(Vec::from([(least.clone(), left), (least, right)])));
+            let left = core::mem::replace(&mut self.root, Arc::new(Node::Leaf(List::new())));
+            let children = List { keys: Vec::from([least.clone(), least]), values: Vec::from([left, right]) };
+            self.root = Arc::new(Node::Inner(children));
         }
         self.len += usize::from(old.is_none());
         old
@@ -241,7 +269,7 @@ impl<K: Ord + Clone, V: Clone> Map<K, V> {
         let old = Arc::make_mut(&mut self.root).remove(key)?;
         self.len -= 1;
         while let Node::Inner(children) = &*self.root
-            && let [(_, only)] = &children[..]
+            && let [only] = &children.values[..]
         {
             self.root = Arc::clone(only);
         }
@@ -251,20 +279,20 @@ impl<K: Ord + Clone, V: Clone> Map<K, V> {
     /// The entries from `key` on, ascending.
     pub(crate) fn range(&self, key: &K) -> Range<'_, K, V> {
         let (leaf, next) = self.leaf_from(key);
-        let start = leaf.partition_point(|(known, _)| known < key);
-        Range { map: self, leaf: leaf[start..].iter(), next }
+        let start = leaf.keys.partition_point(|known| known < key);
+        Range { map: self, leaf: leaf.keys[start..].iter().zip(&leaf.values[start..]), next }
     }
 
     /// The leaf that a key belongs to, and the key at which the leaf after it begins.
-    fn leaf_from(&self, key: &K) -> (&[(K, V)], Option<&K>) {
+    fn leaf_from(&self, key: &K) -> (&List<K, V>, Option<&K>) {
         let (mut node, mut next) = (&*self.root, None);
         loop {
             match node {
                 Node::Leaf(entries) => return (entries, next),
                 Node::Inner(children) => {
-                    let at = child_of(children, key);
-                    next = children.get(at + 1).map(|(least, _)| least).or(next);
-                    node = &children[at].1;
+                    let at = child_of(&children.keys, key);
+                    next = children.keys.get(at + 1).or(next);
+                    node = &children.values[at];
                 }
             }
         }
@@ -275,10 +303,12 @@ impl<K: Ord + Clone, V: Clone> Map<K, V> {
         let (mut node, mut next) = (&*self.root, None);
         loop {
             match node {
-                Node::Leaf(entries) => return Range { map: self, leaf: entries.iter(), next },
+                Node::Leaf(entries) => {
+                    return Range { map: self, leaf: entries.keys.iter().zip(&entries.values), next };
+                }
                 Node::Inner(children) => {
-                    next = children.get(1).map(|(least, _)| least).or(next);
-                    node = &children[0].1;
+                    next = children.keys.get(1).or(next);
+                    node = &children.values[0];
                 }
             }
         }
@@ -289,8 +319,8 @@ impl<K: Ord + Clone, V: Clone> Map<K, V> {
         let mut node = &*self.root;
         loop {
             match node {
-                Node::Leaf(entries) => return entries.last().map(|(key, value)| (key, value)),
-                Node::Inner(children) => node = &children.last()?.1,
+                Node::Leaf(entries) => return entries.keys.last().zip(entries.values.last()),
+                Node::Inner(children) => node = children.values.last()?,
             }
         }
     }
@@ -300,7 +330,7 @@ impl<K: Ord + Clone, V: Clone> Map<K, V> {
 #[derive(Debug)]
 pub(crate) struct Range<'m, K, V> {
     map: &'m Map<K, V>,
-    leaf: slice::Iter<'m, (K, V)>,
+    leaf: Zip<slice::Iter<'m, K>, slice::Iter<'m, V>>,
     next: Option<&'m K>,
 }
 
@@ -320,7 +350,7 @@ impl<'m, K: Ord + Clone, V: Clone> Iterator for Range<'m, K, V> {
                 return Some((key, value));
             }
             let (leaf, next) = self.map.leaf_from(self.next?);
-            (self.leaf, self.next) = (leaf.iter(), next);
+            (self.leaf, self.next) = (leaf.keys.iter().zip(&leaf.values), next);
         }
     }
 }
@@ -338,18 +368,19 @@ mod tests {
             assert!(node.size() <= FULL);
             match node {
                 Node::Leaf(entries) => {
-                    assert!(entries.iter().all(|(key, _)| inside(key)));
-                    assert!(entries.is_sorted_by(|l, r| l.0 < r.0));
+                    assert!(entries.keys.iter().all(inside));
+                    assert!(entries.keys.is_sorted_by(|l, r| l < r));
+                    assert_eq!(entries.keys.len(), entries.values.len());
                     0
                 }
                 Node::Inner(children) => {
-                    assert!(!children.is_empty());
-                    assert!(children[1..].iter().all(|(key, _)| inside(key)));
+                    assert!(children.len() > 1 && children.len() == children.values.len());
+                    assert!(children.keys[1..].iter().all(inside));
                     let depths: Vec<usize> = (0..children.len())
                         .map(|at| {
-                            let low = if at == 0 { low } else { Some(&children[at].0) };
-                            let high = children.get(at + 1).map(|(key, _)| key).or(high);
-                            Self::check(&children[at].1, low, high)
+                            let low = if at == 0 { low } else { Some(&children.keys[at]) };
+                            let high = children.keys.get(at + 1).or(high);
+                            Self::check(&children.values[at], low, high)
                         })
                         .collect();
                     assert!(depths.windows(2).all(|pair| pair[0] == pair[1]));
@@ -410,7 +441,7 @@ mod tests {
         fn leaves<K, V>(node: &Node<K, V>) -> usize {
             match node {
                 Node::Leaf(_) => 1,
-                Node::Inner(children) => children.iter().map(|(_, child)| leaves(child)).sum(),
+                Node::Inner(children) => children.values.iter().map(|child| leaves(child)).sum(),
             }
         }
         // Two authors in turn: one grows in the middle.

@@ -1,6 +1,7 @@
 //! What joining a delta removes and adds, found without changing anything. `[spec: JOIN-3]`
 
 use super::graph::Graph;
+use super::held::NONE;
 use crate::context::Run;
 use crate::dot::Dot;
 use crate::record::Record;
@@ -58,6 +59,9 @@ impl Graph {
     fn merge<'d>(&self, delta: &'d Delta) -> Plan<'d> {
         let mut plan = Plan::default();
         for run in delta.context().runs() {
+            if run.first == run.last && delta.holds(run.start()) {
+                continue;
+            }
             let held = self.held_in(run).filter(|&dot| !delta.holds(dot));
             plan.removed.extend(held);
         }
@@ -79,20 +83,10 @@ impl Graph {
         self.records.range(&run.start()).map(|(&dot, _)| dot).take_while(move |&dot| dot <= last)
     }
 
-    /// The records here that are anchored to a dot.
-    fn anchored_to(&self, anchor: Dot) -> impl Iterator<Item = Dot> + '_ {
-        self.edges_at(anchor).chain(self.writes_on(anchor).map(|(key, _)| key.2))
-    }
-
     /// The records here that are anchored to dots of a run, none of which is held here.
     fn waiting_for(&self, run: Run) -> impl Iterator<Item = Dot> + '_ {
-        use super::held::NONE;
-        let (first, last) = (run.start(), *run.bounds().end());
-        let near = self.claims.range(&(first, 0, NONE, NONE)).map(|(key, ())| (key.0, key.3));
-        let far = self.ends.range(&(first, NONE)).map(|(key, ())| *key);
-        let writes = self.writes.range(&(first, 0, NONE)).map(|(key, _)| (key.0, key.2));
-        let within = move |&(anchor, _): &(Dot, Dot)| anchor <= last;
-        let all = near.take_while(within).chain(far.take_while(within)).chain(writes.take_while(within));
-        all.map(|(_, dot)| dot)
+        let last = *run.bounds().end();
+        let loose = self.loose.range(&(run.start(), NONE)).map(|(key, ())| *key);
+        loose.take_while(move |key| key.0 <= last).map(|key| key.1)
     }
 }

@@ -97,6 +97,9 @@ impl Graph {
         if let (Held::Vertex(old), Some(new)) = (&replaced.held, self.vertex_mut(dot)) {
             (new.children, new.parent, new.up) = (old.children, old.parent, old.up);
         }
+        if let Some(Held::Write(_)) = self.records.get(&dot) {
+            self.let_loose(dot);
+        }
     }
 }
 
