@@ -71,11 +71,9 @@ fn deltas(from: &mut Replica, mutations: impl Iterator<Item = Mutation>) -> Vec<
 
 fn row(n: usize) -> Vec<(&'static str, f64)> {
     let mut row = Vec::new();
-    let before = resident_bytes();
     let mut made = None;
     row.push(("add vertex", time(1, |_| made = Some(tree(n, 1))) / n as f64));
     let (mut replica, vertices) = made.unwrap();
-    row.push(("bytes/vertex", (resident_bytes() - before) / n as f64));
     let mut noise = Noise(1);
     let turns = 20_000;
 
@@ -157,6 +155,10 @@ fn row(n: usize) -> Vec<(&'static str, f64)> {
 }
 
 fn main() {
+    let before = resident_bytes();
+    let kept = tree(100_000, 1);
+    println!("{:.0} bytes per vertex with its edge, of 100000", (resident_bytes() - before) / 1e5);
+    drop(kept);
     let largest = std::env::args().nth(1).and_then(|text| text.parse().ok()).unwrap_or(1_000_000);
     let sizes: Vec<usize> =
         std::iter::successors(Some(100), |n| Some(n * 10)).take_while(|n| *n <= largest).collect();

@@ -4,10 +4,11 @@ use super::changes::Change;
 use super::graph::Graph;
 use super::held::{Exposure, Held, HeldWrite, Status};
 use super::names::NameId;
-use super::settle::{Flip, Settling};
+use super::settle::{Came, Flip, Settling};
 use crate::dot::{Dot, VertexId};
+use crate::record::{Name, Rank};
 use crate::view::Repair;
-use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 /// A write of a register: its dot, its stamp, what it is shown as.
@@ -25,87 +26,96 @@ impl Graph {
         }
     }
 
-    fn exposure(&self, target_lives: bool, name: NameId, write: &HeldWrite) -> Exposure {
-        let declared = |name| self.dictionary.allows_attribute(name, write.value.value_type());
-        match self.names.text(name) {
-            Some(name) if target_lives && declared(name) => Exposure::Shown,
-            Some(_) if target_lives => Exposure::Undeclared,
-            _ => Exposure::Invisible,
+    fn exposure(&self, target_lives: bool, name: &Name, write: &HeldWrite) -> Exposure {
+        if !target_lives {
+            Exposure::Invisible
+        } else if self.dictionary.allows_attribute(name, write.value.value_type()) {
+            Exposure::Shown
+        } else {
+            Exposure::Undeclared
         }
+    }
+}
+
+/// A register, with one of its writes that has gone, as it was shown.
+type Touched = (Dot, NameId, Option<Seen>);
+
+/// The greatest of the writes shown.
+#[derive(Clone, Copy, Default)]
+struct Winner(Option<Rank>);
+
+impl Winner {
+    fn see(&mut self, (dot, stamp, exposure): Seen) {
+        if exposure == Exposure::Shown {
+            self.0 = self.0.max(Some((stamp, dot)));
+        }
+    }
+
+    fn dot(self) -> Option<Dot> {
+        self.0.map(|(_, dot)| dot)
     }
 }
 
 impl Settling<'_> {
     /// O(the writes of every register that is touched).
     pub(super) fn settle_attributes(&mut self, flips: &[Flip]) {
-        let mut registers: BTreeMap<(Dot, NameId), Vec<Seen>> = BTreeMap::new();
+        let mut touched: Vec<Touched> = Vec::new();
         let mut targets: BTreeSet<Dot> = flips.iter().map(|flip| flip.dot).collect();
         for gone in &self.gone {
-            match (&gone.held, &gone.write) {
-                (Held::Write(at), Some(write)) => {
-                    let seen = (gone.dot, write.stamp, write.exposure);
-                    registers.entry((at.target, at.name)).or_default().push(seen);
-                }
-                _ => {
-                    targets.insert(gone.dot);
-                }
+            if let (Held::Write(at), Some(write)) = (&gone.held, &gone.write) {
+                touched.push((at.target, at.name, Some((gone.dot, write.stamp, write.exposure))));
+            } else {
+                targets.insert(gone.dot);
             }
         }
-        for &dot in &self.came {
-            match self.graph.records.get(&dot) {
-                Some(Held::Write(at)) => {
-                    registers.entry((at.target, at.name)).or_default();
-                }
-                _ => {
-                    targets.insert(dot);
-                }
+        for &(dot, kind) in &self.came {
+            if let Came::Write(at) = kind {
+                touched.push((at.target, at.name, None));
+            } else {
+                targets.insert(dot);
             }
         }
         for target in targets {
-            for (&(target, name, _), _) in self.graph.writes_on(target) {
-                registers.entry((target, name)).or_default();
-            }
+            touched.extend(self.graph.writes_on(target).map(|(&(target, name, _), _)| (target, name, None)));
         }
-        for ((target, name), gone) in registers {
-            self.settle_attribute(target, name, &gone);
+        touched.sort_unstable_by_key(|&(target, name, _)| (target, name));
+        for register in touched.chunk_by(|l, r| (l.0, l.1) == (r.0, r.1)) {
+            self.settle_attribute(register);
         }
     }
 
-    fn settle_attribute(&mut self, target: Dot, name: NameId, gone: &[Seen]) {
+    fn settle_attribute(&mut self, touched: &[Touched]) {
+        let [(target, name, _), ..] = *touched else { return };
         let lives = self.graph.shows_attributes_of(target);
-        let mut before: Vec<Seen> = gone.to_vec();
-        let mut after: Vec<Seen> = Vec::new();
-        let mut flipped = Vec::new();
-        for (dot, write) in self.graph.writes_of(target, name) {
-            let now = self.graph.exposure(lives, name, write);
-            before.push((dot, write.stamp, write.exposure));
-            after.push((dot, write.stamp, now));
-            if now != write.exposure {
-                flipped.push((dot, now));
+        let text = self.graph.names.name(name);
+        let (mut before, mut after) = (Winner::default(), Winner::default());
+        let (mut differs, mut flipped) = (false, Vec::new());
+        for &seen in touched.iter().filter_map(|(.., seen)| seen.as_ref()) {
+            before.see(seen);
+            differs |= seen.2 == Exposure::Shown;
+            if seen.2 == Exposure::Undeclared {
+                self.repairs_before.push(Repair::Undeclared { write: seen.0 });
             }
         }
-        let undeclared = |list: &[Seen]| -> Vec<Repair> {
-            let hidden = list.iter().filter(|seen| seen.2 == Exposure::Undeclared);
-            hidden.map(|&(write, ..)| Repair::Undeclared { write }).collect()
-        };
-        self.repairs_before.extend(undeclared(&before));
-        self.repairs_after.extend(undeclared(&after));
-        let is_shown = |seen: &&Seen| seen.2 == Exposure::Shown;
-        let differs = gone.iter().any(|seen| is_shown(&seen))
-            || flipped.iter().any(|&(dot, now)| {
-                let was = before.iter().any(|seen| seen.0 == dot && seen.2 == Exposure::Shown);
-                was != (now == Exposure::Shown)
-            });
+        for (dot, write) in self.graph.writes_of(target, name) {
+            let (was, is) = (write.exposure, self.graph.exposure(lives, &text, write));
+            before.see((dot, write.stamp, was));
+            after.see((dot, write.stamp, is));
+            if was == is {
+                continue;
+            }
+            flipped.push((dot, is));
+            differs |= was == Exposure::Shown || is == Exposure::Shown;
+            let repair = Repair::Undeclared { write: dot };
+            if was == Exposure::Undeclared {
+                self.repairs_before.push(repair);
+            } else if is == Exposure::Undeclared {
+                self.repairs_after.push(repair);
+            }
+        }
         if differs {
-            let winner = |list: &[Seen]| {
-                list.iter().filter(is_shown).max_by_key(|seen| (seen.1, seen.0)).map(|seen| seen.0)
-            };
-            self.changes.push(Change::Attribute {
-                target,
-                name: self.graph.names.name(name),
-                before: winner(&before),
-                after: winner(&after),
-            });
+            let (before, after) = (before.dot(), after.dot());
+            self.changes.push(Change::Attribute { target, name: text, before, after });
         }
         for (dot, exposure) in flipped {
             if let Some(write) = self.graph.writes.get_mut(&(target, name, dot)) {

@@ -3,6 +3,7 @@
 use super::held::{ClaimKey, Held, HeldEdge, HeldVertex, HeldWrite, NONE, RegisterKey, WriteAt, WriteKey};
 use super::map::Map;
 use super::names::{NameId, Names, RT_ID};
+use super::settle::Came;
 use crate::context::CausalContext;
 use crate::dictionary::Dictionary;
 use crate::dot::{Dot, VertexId};
@@ -114,11 +115,14 @@ impl Graph {
     }
 
     /// Files a record in every index, shown as nothing yet.
-    pub(super) fn file(&mut self, dot: Dot, record: &Record) {
-        let held = match record {
-            Record::Vertex(vertex) => Held::Vertex(self.file_vertex(dot, vertex)),
-            Record::Edge(edge) => Held::Edge(self.file_edge(dot, edge)),
-            Record::Write(write) => Held::Write(self.file_write(dot, write)),
+    pub(super) fn file(&mut self, dot: Dot, record: &Record) -> Came {
+        let (held, came) = match record {
+            Record::Vertex(vertex) => (Held::Vertex(self.file_vertex(dot, vertex)), Came::Vertex),
+            Record::Edge(edge) => (Held::Edge(self.file_edge(dot, edge)), Came::Edge),
+            Record::Write(write) => {
+                let at = self.file_write(dot, write);
+                (Held::Write(at), Came::Write(at))
+            }
         };
         self.records.insert(dot, held);
         for anchor in record.anchors() {
@@ -136,6 +140,7 @@ impl Graph {
                 self.stamps.insert(stamp, 1);
             }
         }
+        came
     }
 
     /// Whether records can be anchored to a dot: the root, a vertex, an edge.

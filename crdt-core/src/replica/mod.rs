@@ -56,6 +56,7 @@ use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::ops::Deref;
 use ground::Without;
+use settle::Came;
 
 /// One replica of a graph: mutates it, joins deltas, and says what each has changed. Reads as a [`Graph`].
 /// `[spec: REPLICA-1]`
@@ -176,15 +177,14 @@ impl Replica {
         attributes: &mutation::AttributeMap,
     ) -> Result<Delta, MoveEdgeError> {
         let mut draft = mutation::departure(&self.graph, author, from, to, attributes)?;
-        match Without::new(&self.graph, from) {
-            Some(without) => new_edge::check(&without, to)?,
-            None => {
-                let plan = self.graph.plan(&draft.delta);
-                let done = self.graph.commit(plan.removed, plan.added, true);
-                let judged = new_edge::check(&self.graph, to);
-                self.undo(&done.gone, done.came);
-                judged?;
-            }
+        if let Some(without) = Without::new(&self.graph, from) {
+            new_edge::check(&without, to)?;
+        } else {
+            let plan = self.graph.plan(&draft.delta);
+            let done = self.graph.commit(plan.removed, plan.added, true);
+            let judged = new_edge::check(&self.graph, to);
+            self.undo(&done.gone, done.came);
+            judged?;
         }
         draft.kill_register(&self.graph, to);
         draft.edge(to, attributes)?;
@@ -205,7 +205,8 @@ impl Replica {
     }
 
     /// Edits in reverse: what is shown depends on what is held, not on how it came about. `[spec: VIEW-1]`
-    fn undo(&mut self, gone: &[(Dot, Record)], came: Vec<Dot>) {
+    fn undo(&mut self, gone: &[(Dot, Record)], came: Vec<(Dot, Came)>) {
+        let came = came.into_iter().map(|(dot, _)| dot);
         self.graph.commit(came, gone.iter().map(|(dot, record)| (*dot, record)), false);
     }
 

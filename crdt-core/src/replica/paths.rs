@@ -134,7 +134,7 @@ impl Settling<'_> {
                 }
             }
         }
-        for &dot in &self.came {
+        for &(dot, _) in &self.came {
             if self.graph.vertex_held(dot).is_some_and(|vertex| vertex.up == NONE) {
                 search.lost.insert(dot);
             }

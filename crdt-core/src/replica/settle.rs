@@ -6,7 +6,7 @@
 
 use super::changes::{Change, Changes};
 use super::graph::{Gone, Graph};
-use super::held::{Held, HeldEdge, HeldVertex, Status};
+use super::held::{Held, HeldEdge, HeldVertex, Status, WriteAt};
 use crate::dot::{Dot, EdgeId, VertexId};
 use crate::record::Record;
 use crate::view::Repair;
@@ -21,6 +21,14 @@ pub(super) struct Flip {
     pub(super) appears: bool,
 }
 
+/// What was filed under a dot.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Came {
+    Vertex,
+    Edge,
+    Write(WriteAt),
+}
+
 /// What edits have led to.
 #[derive(Debug)]
 pub(super) struct Outcome {
@@ -30,7 +38,7 @@ pub(super) struct Outcome {
     /// What was withdrawn, to be filed again where the edits are undone.
     pub(super) gone: Vec<(Dot, Record)>,
     /// What was filed.
-    pub(super) came: Vec<Dot>,
+    pub(super) came: Vec<(Dot, Came)>,
 }
 
 /// The work on one set of edits.
@@ -40,7 +48,7 @@ pub(super) struct Settling<'g> {
     /// What was withdrawn, as it was shown, by its dots.
     pub(super) gone: Vec<Gone>,
     /// What was filed, in order.
-    pub(super) came: Vec<Dot>,
+    pub(super) came: Vec<(Dot, Came)>,
     pub(super) changes: Vec<Change>,
     pub(super) repairs_before: Vec<Repair>,
     pub(super) repairs_after: Vec<Repair>,
@@ -68,8 +76,7 @@ impl Graph {
         let mut came = Vec::new();
         for (dot, record) in added {
             let replaced = self.withdraw(dot);
-            self.file(dot, record);
-            came.push(dot);
+            came.push((dot, self.file(dot, record)));
             if let Some(replaced) = replaced {
                 self.keep_place(dot, &replaced);
                 gone.push(replaced);
@@ -127,7 +134,7 @@ impl Settling<'_> {
 
     fn touches_vertices(&self) -> bool {
         self.gone.iter().any(|gone| matches!(gone.held, Held::Vertex(_)))
-            || self.came.iter().any(|&dot| self.graph.vertex_held(dot).is_some())
+            || self.came.iter().any(|(_, kind)| *kind == Came::Vertex)
     }
 
     /// The vertices that have gone.
@@ -163,13 +170,13 @@ impl Settling<'_> {
                 _ => {}
             }
         }
-        for &dot in &self.came {
-            match self.graph.records.get(&dot) {
-                Some(Held::Edge(_)) => {
+        for &(dot, kind) in &self.came {
+            match kind {
+                Came::Edge => {
                     at.insert(dot);
                 }
-                Some(Held::Vertex(_)) => at.extend(self.graph.edges_at(dot)),
-                _ => {}
+                Came::Vertex => at.extend(self.graph.edges_at(dot)),
+                Came::Write(_) => {}
             }
         }
         for dot in at {
@@ -219,6 +226,9 @@ impl Settling<'_> {
 
     /// What is repaired before and after is no change. `[spec: EVENT-4]`
     fn settle_repairs(&mut self) {
+        if self.repairs_before.is_empty() && self.repairs_after.is_empty() {
+            return;
+        }
         self.repairs_before.sort_unstable();
         self.repairs_after.sort_unstable();
         let is_in = |list: &[Repair], repair: &Repair| list.binary_search(repair).is_ok();
@@ -237,6 +247,9 @@ impl Settling<'_> {
     }
 
     fn newly_stranded(&self) -> Vec<VertexId> {
+        if self.strays_before.is_empty() && self.detached_before.is_empty() {
+            return Vec::new();
+        }
         let was = |vertex: Dot| {
             let stray = self.strays_before.get(&vertex).copied().unwrap_or(false);
             let detached = self.detached_before.get(&vertex).copied();

@@ -198,7 +198,7 @@ impl Settling<'_> {
                     _ if self.graph.is_visible(&claim.1) => Status::Hidden,
                     _ => Status::Invisible,
                 };
-                if status == Status::Hidden && !new.is_some_and(|new| rank(&new) > rank(&claim)) {
+                if status == Status::Hidden && new.is_none_or(|new| rank(&new) < rank(&claim)) {
                     self.graph.broken.insert(rank(&claim), ());
                 } else {
                     self.graph.broken.remove(&rank(&claim));

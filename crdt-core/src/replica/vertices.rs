@@ -18,14 +18,14 @@ impl Settling<'_> {
             names.entry(vertex.name.clone()).or_default().push((vertex.stamp, dot));
             changes.push(Change::VertexRemoved { vertex: VertexId(dot), name: vertex.name.clone() });
         }
-        for &dot in &self.came {
+        for &(dot, _) in &self.came {
             if let Some(vertex) = self.graph.vertex_held(dot) {
                 names.entry(vertex.name.clone()).or_default();
                 changes.push(Change::VertexAdded { vertex: VertexId(dot) });
             }
         }
         self.changes.append(&mut changes);
-        let came: BTreeSet<Dot> = self.came.iter().copied().collect();
+        let came: BTreeSet<Dot> = self.came.iter().map(|(dot, _)| *dot).collect();
         for (name, gone) in names {
             let now: Vec<(u64, Dot)> =
                 self.graph.namesakes(&name).map(|(dot, vertex)| (vertex.stamp, dot)).collect();

@@ -83,12 +83,12 @@ impl Pair {
     pub(crate) fn apply(&mut self, delta: &Delta) -> usize {
         let state = self.state.joined(delta);
         let told = self.replica.apply(delta);
-        self.advance(state, told.into_iter().collect())
+        self.advance(state, &told.into_iter().collect::<Vec<_>>())
     }
 
     /// Both go on to a state; the changes told must be the difference of the views.
     #[track_caller]
-    fn advance(&mut self, state: State, told: Vec<Change>) -> usize {
+    fn advance(&mut self, state: State, told: &[Change]) -> usize {
         let (old, new) = (view(&self.state, &self.dictionary), view(&state, &self.dictionary));
         let expected = changes(&facts(&old), &facts(&new));
         assert_eq!(told, expected, "changes\nfrom {:#?}\nto {:#?}", self.state, state);
@@ -112,7 +112,7 @@ impl Pair {
         );
         match made {
             Ok(made) => {
-                self.advance(self.state.joined(&made.delta), made.changes.into_iter().collect());
+                self.advance(self.state.joined(&made.delta), &made.changes.into_iter().collect::<Vec<_>>());
                 Ok(made.delta)
             }
             Err(error) => {
