@@ -164,11 +164,15 @@ fn main() {
         std::iter::successors(Some(100), |n| Some(n * 10)).take_while(|n| *n <= largest).collect();
     let rows: Vec<_> = sizes.iter().map(|&n| row(n)).collect();
     print!("{:28}", "ns");
-    sizes.iter().for_each(|n| print!("{n:>10}"));
+    for n in &sizes {
+        print!("{n:>10}");
+    }
     println!("  exponent");
     for line in 0..rows[0].len() {
         print!("{:28}", rows[0][line].0);
-        rows.iter().for_each(|row| print!("{:>10.0}", row[line].1));
+        for row in &rows {
+            print!("{:>10.0}", row[line].1);
+        }
         let (first, last) = (rows[0][line].1, rows[rows.len() - 1][line].1);
         let span = sizes[sizes.len() - 1] as f64 / sizes[0] as f64;
         println!("{:>10.3}", (last / first).ln() / span.ln());

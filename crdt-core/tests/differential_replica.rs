@@ -114,6 +114,37 @@ fn differential_every_mutation_in_every_small_state() {
     assert!(allowed > 10_000, "{allowed}");
 }
 
+/// Ends whose short forms in the index of claims are equal are told apart. `[spec: STAMP-4]`
+/// `[spec: REPLICA-1]`
+#[test]
+fn regress_ends_that_share_a_mix() {
+    let mix = |dot: Dot| u64::from(dot.replica.agent.wrapping_mul(0x9e37_79b9)) ^ dot.sequence;
+    let first = Dot::new(ReplicaId::agent(1), 1);
+    let second = Dot::new(ReplicaId::agent(2), mix(first) ^ mix(Dot::new(ReplicaId::agent(2), 0)));
+    let like_root = Dot::new(ReplicaId::agent(3), mix(Dot::new(ReplicaId::agent(3), 0)));
+    assert_eq!((mix(first), mix(like_root)), (mix(second), 0));
+    let vertex = |dot: Dot| {
+        let (name, stamp) = (dot.to_string().into(), 1);
+        (dot, Record::Vertex(Vertex { vertex_type: "t".into(), name, external_id: None, stamp }))
+    };
+    let source = Dot::new(ReplicaId::agent(4), 1);
+    let edge = |sequence, to: Dot, label: &str| {
+        let dot = Dot::new(ReplicaId::agent(5), sequence);
+        (dot, Record::Edge(Edge { from: VertexId(source), to: VertexId(to), label: label.into(), stamp: 2 }))
+    };
+    let root = VertexId::ROOT.0;
+    let vertices = [first, second, like_root, source].map(vertex);
+    let edges = [first, second, like_root, root].map(|to| edge(10 + to.sequence % 1000, to, "near"));
+    let mut pair = Pair::new(1, dictionary());
+    let mut all = vertices.to_vec();
+    all.extend(edges);
+    all.extend([first, root].map(|to| edge(3000 + to.sequence, to, "in")));
+    let context = all.iter().map(|(dot, _)| *dot).collect();
+    pair.apply(&State::assemble(all, context));
+    assert_eq!(pair.replica.repairs().filter(|repair| repair.kind() == "same-key").count(), 0);
+    try_mutations(&pair, 200);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(3000))]
 

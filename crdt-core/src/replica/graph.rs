@@ -1,6 +1,8 @@
 //! What a replica holds, with the indexes that find it, and what it shows of it.
 
-use super::held::{ClaimKey, Held, HeldEdge, HeldVertex, HeldWrite, NONE, RegisterKey, WriteAt, WriteKey};
+use super::held::{
+    ClaimKey, Held, HeldEdge, HeldVertex, HeldWrite, Link, NONE, RegisterKey, WriteAt, WriteKey, mix,
+};
 use super::map::Map;
 use super::names::{NameId, Names, RT_ID};
 use super::settle::Came;
@@ -46,6 +48,8 @@ pub struct Graph {
 
     /// The kinematic claims that would close a cycle.
     pub(super) broken: Map<Rank, ()>,
+    /// The edges that begin the ways to the root of vertices with another kinematic parent.
+    pub(super) ways: Map<Dot, Dot>,
     /// The vertices that hang from the root by repair.
     pub(super) detached: Map<Dot, ()>,
     /// The vertices without a path to the root, each with the band that it is in.
@@ -71,6 +75,8 @@ pub(super) struct Gone {
     pub(super) held: Held,
     pub(super) write: Option<HeldWrite>,
     pub(super) external: Option<u64>,
+    /// The shown edge that began a vertex's way to the root, or [`NONE`].
+    pub(super) up: Dot,
 }
 
 /// The hash of a name: the same on every machine. Names that collide are told apart by their texts.
@@ -107,6 +113,7 @@ impl Graph {
             labelled: Map::default(),
             stamps: Map::default(),
             broken: Map::default(),
+            ways: Map::default(),
             detached: Map::default(),
             strays: Map::default(),
             bands: Map::default(),
@@ -190,7 +197,7 @@ impl Graph {
             self.external.insert(dot, id);
         }
         let (name, stamp) = (vertex.name.clone(), vertex.stamp);
-        HeldVertex { name, vertex_type, children: 0, stamp, parent: NONE, up: NONE }
+        HeldVertex { name, vertex_type, children: 0, stamp, link: Link::None, linked_by: NONE }
     }
 
     fn file_edge(&mut self, dot: Dot, edge: &Edge) -> HeldEdge {
@@ -199,7 +206,7 @@ impl Graph {
         let (from, to, stamp) = (edge.from.0, edge.to.0, edge.stamp);
         let held = HeldEdge { from, to, label, status: super::held::Status::Invisible, stamp };
         let register = self.register_of(&held);
-        self.claims.insert((register.0, register.1, register.2, dot), ());
+        self.claims.insert((register.0, register.1, mix(register.2), dot), ());
         self.ends.insert((held.other_end(register.0), dot), ());
         self.labelled.insert((label, dot), ());
         held
@@ -220,8 +227,12 @@ impl Graph {
     /// Takes a record out of every index. Its names stay in use until [`release`](Self::release), so that no
     /// other gets their numbers meanwhile.
     pub(super) fn withdraw(&mut self, dot: Dot) -> Option<Gone> {
+        let up = self.up_of(dot);
         let held = self.records.remove(&dot)?;
-        let mut gone = Gone { dot, held, write: None, external: None };
+        if !self.ways.is_empty() {
+            self.ways.remove(&dot);
+        }
+        let mut gone = Gone { dot, held, write: None, external: None, up };
         let stamp = match &gone.held {
             Held::Vertex(vertex) => {
                 self.named.remove(&(hash_of(&vertex.name), dot));
@@ -233,7 +244,7 @@ impl Graph {
             }
             Held::Edge(edge) => {
                 let register = self.register_of(edge);
-                self.claims.remove(&(register.0, register.1, register.2, dot));
+                self.claims.remove(&(register.0, register.1, mix(register.2), dot));
                 self.ends.remove(&(edge.other_end(register.0), dot));
                 self.labelled.remove(&(edge.label, dot));
                 edge.stamp
@@ -359,14 +370,20 @@ impl Graph {
     /// The claims on a register, shown, hidden or pending, by their dots.
     pub(super) fn claims_on(&self, key: RegisterKey) -> impl Iterator<Item = Dot> + '_ {
         let (end, label, other) = key;
-        let from = self.claims.range(&(end, label, other, NONE)).map(|(claim, ())| *claim);
-        from.take_while(move |claim| (claim.0, claim.1, claim.2) == key).map(|claim| claim.3)
+        let all_compete = label == RT_ID || self.names.is_functional(label);
+        let mixed = (end, label, mix(other));
+        let from = self.claims.range(&(end, label, mixed.2, NONE)).map(|(claim, ())| *claim);
+        let claims = from.take_while(move |claim| (claim.0, claim.1, claim.2) == mixed).map(|claim| claim.3);
+        // Others can have the same mix.
+        claims.filter(move |&dot| {
+            all_compete || self.edge_held(dot).is_some_and(|edge| edge.other_end(end) == other)
+        })
     }
 
     /// The edge claims that end at a dot, pending ones included; a loop twice. Claims on its kinematic parent
     /// come first.
     pub(super) fn edges_at(&self, end: Dot) -> impl Iterator<Item = Dot> + '_ {
-        let near = self.claims.range(&(end, 0, NONE, NONE)).map(|(claim, ())| *claim);
+        let near = self.claims.range(&(end, 0, 0, NONE)).map(|(claim, ())| *claim);
         let far = self.ends.range(&(end, NONE)).map(|(claim, ())| *claim);
         let near = near.take_while(move |claim| claim.0 == end).map(|claim| claim.3);
         near.chain(far.take_while(move |claim| claim.0 == end).map(|claim| claim.1))
@@ -397,8 +414,48 @@ impl Graph {
 
     /// The accepted kinematic edge into a vertex.
     pub(super) fn parent_edge(&self, child: Dot) -> Option<(Dot, &HeldEdge)> {
-        let parent = self.vertex_held(child)?.parent;
+        let parent = self.vertex_held(child)?.parent();
         if parent == NONE { None } else { Some((parent, self.edge_held(parent)?)) }
+    }
+
+    /// The shown edge that begins a vertex's way to the root, or [`NONE`].
+    pub(super) fn up_of(&self, vertex: Dot) -> Dot {
+        let Some(held) = self.vertex_held(vertex) else { return NONE };
+        match held.link {
+            Link::None | Link::Parent => NONE,
+            Link::Up | Link::ParentUp => held.linked_by,
+            Link::ParentAndWay => self.ways.get(&vertex).copied().unwrap_or(NONE),
+        }
+    }
+
+    pub(super) fn set_up(&mut self, vertex: Dot, up: Dot) {
+        if let Some(parent) = self.vertex_held(vertex).map(HeldVertex::parent) {
+            self.set_link(vertex, parent, up);
+        }
+    }
+
+    pub(super) fn set_parent(&mut self, vertex: Dot, parent: Dot) {
+        let up = self.up_of(vertex);
+        self.set_link(vertex, parent, up);
+    }
+
+    pub(super) fn set_link(&mut self, vertex: Dot, parent: Dot, up: Dot) {
+        let link = match (parent, up) {
+            (NONE, NONE) => Link::None,
+            (NONE, _) => Link::Up,
+            (_, NONE) => Link::Parent,
+            _ if parent == up => Link::ParentUp,
+            _ => Link::ParentAndWay,
+        };
+        let Some(held) = self.vertex_mut(vertex) else { return };
+        let had_way = held.link == Link::ParentAndWay;
+        held.link = link;
+        held.linked_by = if link == Link::Up { up } else { parent };
+        if link == Link::ParentAndWay {
+            self.ways.insert(vertex, up);
+        } else if had_way {
+            self.ways.remove(&vertex);
+        }
     }
 
     pub(super) fn key_of(&self, edge: &HeldEdge) -> EdgeKey {

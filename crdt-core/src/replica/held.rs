@@ -23,10 +23,32 @@ pub(super) struct HeldVertex {
     /// How many accepted kinematic edges leave it.
     pub(super) children: u32,
     pub(super) stamp: u64,
+    /// See [`Link`].
+    pub(super) link: Link,
+    pub(super) linked_by: Dot,
+}
+
+/// What edge a vertex is linked by: the accepted kinematic one into it, and the shown one that begins its way
+/// to the root. Mostly it has one of the two, or they are the same.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Link {
+    /// Neither.
+    None,
+    /// The kinematic one, and it has no way.
+    Parent,
+    /// The kinematic one, and it begins its way.
+    ParentUp,
+    /// The kinematic one; its way is begun by another, found apart.
+    ParentAndWay,
+    /// It has no kinematic one; this begins its way.
+    Up,
+}
+
+impl HeldVertex {
     /// The accepted kinematic edge into it, or [`NONE`].
-    pub(super) parent: Dot,
-    /// The shown edge that begins its way to the root, or [`NONE`] if it has no such way.
-    pub(super) up: Dot,
+    pub(super) fn parent(&self) -> Dot {
+        if self.link == Link::Up { NONE } else { self.linked_by }
+    }
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -83,5 +105,14 @@ pub(super) type WriteKey = (Dot, NameId, Dot);
 /// other ends compete. `[spec: STAMP-4]`
 pub(super) type RegisterKey = (Dot, NameId, Dot);
 
-/// A claim's place: its register, its own dot.
-pub(super) type ClaimKey = (Dot, NameId, Dot, Dot);
+/// A claim's place: its register, with a mix of the other end in place of it, and its own dot.
+pub(super) type ClaimKey = (Dot, NameId, u32, Dot);
+
+/// Half the bytes of a dot, in a form that tells most dots apart.
+pub(super) fn mix(dot: Dot) -> u32 {
+    let Dot { replica, sequence } = dot;
+    let [a, b, c, d, e, f, g, h] = sequence.to_le_bytes();
+    let (low, high) = (u32::from_le_bytes([a, b, c, d]), u32::from_le_bytes([e, f, g, h]));
+    let replica = replica.agent.wrapping_mul(0x9e37_79b9) ^ replica.incarnation.wrapping_mul(0x85eb_ca6b);
+    low ^ high.wrapping_mul(0xc2b2_ae35) ^ replica
+}

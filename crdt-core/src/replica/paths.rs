@@ -13,7 +13,7 @@
 
 use super::graph::{Band, Graph};
 use super::held::{Held, NONE, Status};
-use super::settle::Settling;
+use super::settle::{Came, Settling};
 use crate::dot::{Dot, VertexId};
 use crate::view::Repair;
 use alloc::collections::{BTreeMap, BTreeSet, VecDeque};
@@ -44,15 +44,9 @@ impl Graph {
         })
     }
 
-    fn set_up(&mut self, vertex: Dot, edge: Dot) {
-        if let Some(vertex) = self.vertex_mut(vertex) {
-            vertex.up = edge;
-        }
-    }
-
     /// The vertex at the other end of a vertex's `up`.
     fn above(&self, vertex: Dot) -> Option<Dot> {
-        let up = self.vertex_held(vertex)?.up;
+        let up = self.up_of(vertex);
         if up == NONE { None } else { Some(self.edge_held(up)?.other_end(vertex)) }
     }
 
@@ -127,15 +121,15 @@ impl Settling<'_> {
         for at in 0..self.hidden.len() {
             let (dot, edge) = self.hidden[at];
             for end in [edge.from, edge.to] {
-                if self.graph.vertex_held(end).is_some_and(|vertex| vertex.up == dot) {
+                if self.graph.up_of(end) == dot {
                     self.graph.set_up(end, NONE);
                     search.lost.insert(end);
                     search.hanging = true;
                 }
             }
         }
-        for &(dot, _) in &self.came {
-            if self.graph.vertex_held(dot).is_some_and(|vertex| vertex.up == NONE) {
+        for &(dot, kind) in &self.came {
+            if kind == Came::Vertex && self.graph.up_of(dot) == NONE {
                 search.lost.insert(dot);
             }
         }

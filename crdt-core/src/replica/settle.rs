@@ -102,7 +102,8 @@ impl Graph {
     /// A vertex whose record is replaced keeps its edges, and with them its place. `[spec: JOIN-2]`
     fn keep_place(&mut self, dot: Dot, replaced: &Gone) {
         if let (Held::Vertex(old), Some(new)) = (&replaced.held, self.vertex_mut(dot)) {
-            (new.children, new.parent, new.up) = (old.children, old.parent, old.up);
+            new.children = old.children;
+            self.set_link(dot, old.parent(), replaced.up);
         }
         if let Some(Held::Write(_)) = self.records.get(&dot) {
             self.let_loose(dot);

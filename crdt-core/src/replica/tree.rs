@@ -130,7 +130,7 @@ impl Settling<'_> {
         let below = rank(&claim);
         let graph = &*self.graph;
         for rival in graph.claims_on(graph.register_of(&claim.1)).filter_map(|dot| graph.claim(dot)) {
-            let accepted = graph.vertex_held(rival.1.to).is_some_and(|child| child.parent == rival.0);
+            let accepted = graph.vertex_held(rival.1.to).is_some_and(|child| child.parent() == rival.0);
             if rank(&rival) < below && !accepted && graph.is_visible(&rival.1) {
                 judgement.queue.insert(rank(&rival));
             }
@@ -145,19 +145,17 @@ impl Settling<'_> {
                 Some(Held::Vertex(vertex)) => vertex,
                 _ => self.graph.vertex_held(child)?,
             };
-            match self.gone_at(vertex.parent) {
-                Some(&Held::Edge(edge)) => Some((vertex.parent, edge)),
-                _ => self.graph.claim(vertex.parent),
+            match self.gone_at(vertex.parent()) {
+                Some(&Held::Edge(edge)) => Some((vertex.parent(), edge)),
+                _ => self.graph.claim(vertex.parent()),
             }
         });
     }
 
     fn unlink(&mut self, judgement: &mut Judgement, claim: Claim) {
         self.note_parent(judgement, claim.1.to);
-        if let Some(child) = self.graph.vertex_mut(claim.1.to)
-            && child.parent == claim.0
-        {
-            child.parent = NONE;
+        if self.graph.vertex_held(claim.1.to).is_some_and(|child| child.parent() == claim.0) {
+            self.graph.set_parent(claim.1.to, NONE);
         }
         if let Some(parent) = self.graph.vertex_mut(claim.1.from) {
             parent.children = parent.children.saturating_sub(1);
@@ -166,9 +164,7 @@ impl Settling<'_> {
     }
 
     fn link(&mut self, claim: Claim) {
-        if let Some(child) = self.graph.vertex_mut(claim.1.to) {
-            child.parent = claim.0;
-        }
+        self.graph.set_parent(claim.1.to, claim.0);
         if let Some(parent) = self.graph.vertex_mut(claim.1.from) {
             parent.children += 1;
         }
@@ -227,7 +223,7 @@ impl Settling<'_> {
         tops.extend(self.gone_vertices().map(|(dot, _)| dot));
         for top in tops {
             let was = self.graph.detached.contains(&top);
-            let is = self.graph.vertex_held(top).is_some_and(|top| top.parent == NONE && top.children > 0);
+            let is = self.graph.vertex_held(top).is_some_and(|top| top.parent() == NONE && top.children > 0);
             if was == is {
                 continue;
             }
