@@ -156,7 +156,8 @@ fn row(n: usize) -> Vec<(&'static str, f64)> {
 
 fn main() {
     let before = resident_bytes();
-    let kept = tree(100_000, 1);
+    let (kept, vertices) = tree(100_000, 1);
+    drop(vertices);
     println!("{:.0} bytes per vertex with its edge, of 100000", (resident_bytes() - before) / 1e5);
     drop(kept);
     let largest = std::env::args().nth(1).and_then(|text| text.parse().ok()).unwrap_or(1_000_000);

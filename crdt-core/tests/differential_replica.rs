@@ -33,6 +33,26 @@ fn try_mutations(pair: &Pair, limit: usize) -> usize {
     allowed
 }
 
+/// The comparison is no formality: a replica that has missed a delta, or looks through another dictionary, is
+/// found out. `[spec: REPLICA-1]`
+#[test]
+fn law_a_replica_that_differs_is_found_out() {
+    let whole = state(
+        "r1.1 vertex t a @1
+         r1.2 edge root -in-> r1.1 @1
+         r1.3 edge root -in-> r1.1 @2
+         r1.4 write r1.1 level=text @3",
+    );
+    let expected = view(&whole, &dictionary());
+    assert_eq!(Pair::of(1, &whole, dictionary()).disagreement(&whole, &expected), None);
+    assert_eq!(Pair::new(1, dictionary()).disagreement(&whole, &expected), Some("state"));
+    let open = Pair::of(1, &whole, Dictionary::open());
+    assert_eq!(open.disagreement(&whole, &expected), Some("writes"));
+    let functional =
+        Pair::of(1, &whole, Dictionary { attributes: dictionary().attributes, ..Dictionary::open() });
+    assert_eq!(functional.disagreement(&whole, &expected), Some("repairs"));
+}
+
 /// Small universes: two kinematic cycles and two parents; functional claims and equal keys; names; paths.
 const UNIVERSES: [&str; 5] = [
     "r1.1 vertex t a @1

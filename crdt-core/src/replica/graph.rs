@@ -227,11 +227,15 @@ impl Graph {
     /// Takes a record out of every index. Its names stay in use until [`release`](Self::release), so that no
     /// other gets their numbers meanwhile.
     pub(super) fn withdraw(&mut self, dot: Dot) -> Option<Gone> {
-        let up = self.up_of(dot);
         let held = self.records.remove(&dot)?;
-        if !self.ways.is_empty() {
-            self.ways.remove(&dot);
-        }
+        let up = match &held {
+            Held::Vertex(vertex) => match vertex.link {
+                Link::None | Link::Parent => NONE,
+                Link::Up | Link::ParentUp => vertex.linked_by,
+                Link::ParentAndWay => self.ways.remove(&dot).unwrap_or(NONE),
+            },
+            _ => NONE,
+        };
         let mut gone = Gone { dot, held, write: None, external: None, up };
         let stamp = match &gone.held {
             Held::Vertex(vertex) => {

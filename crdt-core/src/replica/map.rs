@@ -17,7 +17,7 @@ use core::iter::Zip;
 use core::slice;
 
 /// The most entries of a node.
-const FULL: usize = 32;
+const FULL: usize = 64;
 /// A node with fewer is united with its neighbour, or takes from it.
 const THIN: usize = FULL / 4;
 

@@ -23,7 +23,8 @@ impl Graph {
     pub(super) fn plan<'d>(&self, delta: &'d Delta) -> Plan<'d> {
         let mut plan = self.merge(delta);
         let mut dead: Vec<Dot> = plan.removed.iter().copied().collect();
-        for run in delta.context().unseen_runs_by(&self.context) {
+        let waits = !self.loose.is_empty();
+        for run in delta.context().unseen_runs_by(&self.context).take_while(|_| waits) {
             for run in delta.dead_within(run) {
                 dead.extend(self.waiting_for(run).filter(|dot| !plan.added.contains_key(dot)));
             }
@@ -59,17 +60,18 @@ impl Graph {
     fn merge<'d>(&self, delta: &'d Delta) -> Plan<'d> {
         let mut plan = Plan::default();
         for run in delta.context().runs() {
-            if run.first == run.last && delta.holds(run.start()) {
+            if run.first == run.last {
+                let dot = run.start();
+                if !delta.holds(dot) && self.records.contains(&dot) {
+                    plan.removed.insert(dot);
+                }
                 continue;
             }
             let held = self.held_in(run).filter(|&dot| !delta.holds(dot));
             plan.removed.extend(held);
         }
         for (dot, theirs) in delta.records() {
-            let is_new = match self.record(dot) {
-                Some(ours) => ours < *theirs,
-                None => !self.context.contains(dot),
-            };
+            let is_new = !self.context.contains(dot) || self.record(dot).is_some_and(|ours| ours < *theirs);
             if is_new {
                 plan.added.insert(dot, theirs);
             }
