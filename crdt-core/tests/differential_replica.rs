@@ -43,7 +43,8 @@ fn law_a_replica_that_differs_is_found_out() {
          r1.3 edge root -in-> r1.1 @2
          r1.4 write r1.1 level=text @3",
     );
-    let expected = view(&whole, &dictionary());
+    let typed = dictionary();
+    let expected = view(&whole, &typed);
     assert_eq!(Pair::of(1, &whole, dictionary()).disagreement(&whole, &expected), None);
     assert_eq!(Pair::new(1, dictionary()).disagreement(&whole, &expected), Some("state"));
     let open = Pair::of(1, &whole, Dictionary::open());
