@@ -151,7 +151,26 @@ fn row(n: usize) -> Vec<(&'static str, f64)> {
         }),
     ));
     drop(kept);
+    row.push(("move at the end of a chain", chain(n)));
     row
+}
+
+/// A chain of `n` vertices, the worst case for whatever walks up: moves its last vertex there and back.
+fn chain(n: usize) -> f64 {
+    let mut replica = Replica::new(ReplicaId::agent(1), Dictionary::open());
+    let mut vertices = vec![VertexId::ROOT];
+    for at in 0..n {
+        let vertex = NewVertex::new("thing", &format!("thing-{at}"));
+        let link = VertexLink::child_of(vertices[at]);
+        let made = replica.mutate(&Mutation::AddVertex { vertex, link }, 0).unwrap();
+        vertices.push(VertexId(made.delta.records().next().unwrap().0));
+    }
+    let key = |parent: usize| EdgeKey::new(vertices[parent], RT, vertices[n]);
+    time(20, |at| {
+        let (from, to) = if at % 2 == 0 { (n - 1, n - 2) } else { (n - 2, n - 1) };
+        let mutation = Mutation::MoveEdge { from: key(from), to: key(to), attributes: AttributeMap::new() };
+        black_box(replica.mutate(&mutation, 0).unwrap());
+    })
 }
 
 fn main() {

@@ -214,9 +214,11 @@ fn differential_the_longest_history() {
     check_met(&live_long(seed, 10_000, 8), &["cycle-broken"]);
 }
 
-/// What a reader holds stays as it is. `[spec: REPLICA-2]`
+/// What a reader holds stays as it is, in whatever thread. `[spec: REPLICA-2]`
 #[test]
 fn law_snapshots_stay() {
+    const fn goes_anywhere<T: Send + Sync>() {}
+    goes_anywhere::<dsr_core::Graph>();
     let mut noise = Noise(3);
     let mut replica = Replica::new(ReplicaId::agent(1), dictionary());
     let mut kept = Vec::new();

@@ -141,11 +141,8 @@ impl Graph {
             self.settle_down(dot);
         }
         let stamp = record.stamp();
-        match self.stamps.get_mut(&stamp) {
-            Some(count) => *count += 1,
-            None => {
-                self.stamps.insert(stamp, 1);
-            }
+        if let Some(count) = self.stamps.insert(stamp, 1) {
+            self.stamps.insert(stamp, count + 1);
         }
         came
     }
@@ -268,11 +265,8 @@ impl Graph {
                 self.loose.remove(&(anchor, dot));
             }
         }
-        match self.stamps.get_mut(&stamp) {
-            Some(count) if *count > 1 => *count -= 1,
-            _ => {
-                self.stamps.remove(&stamp);
-            }
+        if let Some(count) = self.stamps.remove(&stamp).filter(|count| *count > 1) {
+            self.stamps.insert(stamp, count - 1);
         }
         Some(gone)
     }

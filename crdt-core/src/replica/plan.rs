@@ -18,40 +18,45 @@ pub(super) struct Plan<'d> {
     pub(super) added: BTreeMap<Dot, &'d Record>,
 }
 
+impl Plan<'_> {
+    /// Removes what is anchored to the dead, unless its record is replaced by one that may not be; whether it
+    /// was not removed before.
+    fn loses(&mut self, dot: Dot) -> bool {
+        !self.added.contains_key(&dot) && self.removed.insert(dot)
+    }
+}
+
 impl Graph {
     /// The edits of joining a well-formed delta: O(delta and what it changes, · log n).
     pub(super) fn plan<'d>(&self, delta: &'d Delta) -> Plan<'d> {
         let mut plan = self.merge(delta);
+        // What has died, or was never held and is dead, and has not been asked what is anchored to it.
         let mut dead: Vec<Dot> = plan.removed.iter().copied().collect();
         let waits = !self.loose.is_empty();
         for run in delta.context().unseen_runs_by(&self.context).take_while(|_| waits) {
             for run in delta.dead_within(run) {
-                dead.extend(self.waiting_for(run).filter(|dot| !plan.added.contains_key(dot)));
+                dead.extend(self.waiting_for(run).filter(|dot| plan.loses(*dot)));
             }
         }
         loop {
             while let Some(dot) = dead.pop() {
-                if self.records.contains(&dot) {
-                    plan.removed.insert(dot);
-                }
-                let new = self
-                    .anchored_to(dot)
-                    .filter(|dot| !plan.removed.contains(dot) && !plan.added.contains_key(dot));
-                dead.extend(new);
+                dead.extend(self.anchored_to(dot).filter(|dot| plan.loses(*dot)));
             }
             let is_dead = |anchor: Dot| {
                 let held = plan.added.contains_key(&anchor)
                     || self.records.contains(&anchor) && !plan.removed.contains(&anchor);
                 !held && (self.context.contains(anchor) || delta.context().contains(anchor))
             };
-            dead.extend(
-                plan.added.iter().filter(|(_, record)| record.anchors().any(is_dead)).map(|(&dot, _)| dot),
-            );
+            let lost = plan.added.iter().filter(|(_, record)| record.anchors().any(is_dead));
+            dead.extend(lost.map(|(&dot, _)| dot));
             if dead.is_empty() {
                 return plan;
             }
             for dot in &dead {
                 plan.added.remove(dot);
+                if self.records.contains(dot) {
+                    plan.removed.insert(*dot);
+                }
             }
         }
     }
