@@ -12,7 +12,7 @@ use dsr_testkit::{Step, candidates, dictionary, history};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use replica_support::Pair;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Replicas `r1`, `r2`, …, each beside its reference, and all deltas sent.
 struct Pairs {
@@ -107,7 +107,12 @@ impl Noise {
 /// A mutation that somebody might want, in a graph of any size: mostly of what is there.
 fn wish(replica: &Replica, noise: &mut Noise) -> Mutation {
     let vertices: Vec<VertexId> = replica.vertices().collect();
-    let vertex = noise.pick(&vertices);
+    // Half of all wishes meet at a few vertices.
+    let some = |noise: &mut Noise| {
+        let among = if noise.below(2) == 0 { vertices.len().min(7) } else { vertices.len() };
+        vertices[noise.below(among)]
+    };
+    let vertex = some(noise);
     let attributes = if noise.below(3) == 0 {
         AttributeMap::from([("level".into(), 1.into())])
     } else {
@@ -115,10 +120,11 @@ fn wish(replica: &Replica, noise: &mut Noise) -> Mutation {
     };
     let key = |noise: &mut Noise| {
         let label = noise.pick(&["RT", "RT", "in", "near"]);
-        EdgeKey::new(noise.pick(&vertices), label, noise.pick(&vertices))
+        EdgeKey::new(some(noise), label, some(noise))
     };
     let shown = |noise: &mut Noise| {
-        let edges: Vec<EdgeKey> = replica.edges_at_vertex(vertex).map(|(_, edge)| edge.key()).collect();
+        let edges: BTreeSet<EdgeKey> = replica.edges_at_vertex(vertex).map(|(_, edge)| edge.key()).collect();
+        let edges: Vec<EdgeKey> = edges.into_iter().collect();
         if edges.is_empty() { key(noise) } else { noise.pick(&edges) }
     };
     match noise.below(13) {
@@ -133,8 +139,8 @@ fn wish(replica: &Replica, noise: &mut Noise) -> Mutation {
         }
         4 | 5 => Mutation::AddEdge { key: key(noise), attributes },
         6 | 7 => {
-            let target = match replica.edges_at_vertex(vertex).next() {
-                Some((edge, _)) if noise.below(2) == 0 => ElementId::Edge(edge),
+            let target = match replica.edges_at_vertex(vertex).map(|(edge, _)| edge).min() {
+                Some(edge) if noise.below(2) == 0 => ElementId::Edge(edge),
                 _ => ElementId::Vertex(vertex),
             };
             let value = noise.pick(&[Some(Value::Int(1)), Some(Value::Int(2)), None]);
@@ -143,7 +149,7 @@ fn wish(replica: &Replica, noise: &mut Noise) -> Mutation {
         8 => Mutation::RemoveEdge { key: shown(noise) },
         9..=11 => {
             let from = shown(noise);
-            let to = EdgeKey { from: noise.pick(&vertices), ..from.clone() };
+            let to = EdgeKey { from: some(noise), ..from.clone() };
             let to = if noise.below(4) == 0 { key(noise) } else { to };
             Mutation::MoveEdge { from, to, attributes }
         }
@@ -201,7 +207,7 @@ fn differential_long_histories_of_eight() {
 fn check_met(met: &BTreeMap<&str, usize>, more: &[&str]) {
     println!("{met:?}");
     let kinds = MutationKind::ALL.map(MutationKind::name);
-    let repairs = ["same-key", "functional", "rt-parent", "detached", "reattached", "name-clash", "refused"];
+    let repairs = ["functional", "rt-parent", "detached", "reattached", "name-clash", "refused"];
     for what in kinds.iter().chain(&repairs).chain(more) {
         assert!(met.get(what).is_some_and(|&count| count >= 5), "{what}: {met:?}");
     }
@@ -211,7 +217,7 @@ fn check_met(met: &BTreeMap<&str, usize>, more: &[&str]) {
 #[test]
 fn differential_the_longest_history() {
     let seed = std::env::var("SEED").ok().and_then(|seed| seed.parse().ok()).unwrap_or(1);
-    check_met(&live_long(seed, 10_000, 8), &["cycle-broken"]);
+    check_met(&live_long(seed, 10_000, 8), &["cycle-broken", "same-key"]);
 }
 
 /// What a reader holds stays as it is, in whatever thread. `[spec: REPLICA-2]`

@@ -29,6 +29,8 @@
 
 mod attributes;
 mod changes;
+#[cfg(test)]
+mod check;
 mod graph;
 mod ground;
 mod held;

@@ -81,10 +81,10 @@ impl Names {
         self.entries.get(&id).is_some_and(|entry| entry.functional)
     }
 
-    /// How many are in use.
+    /// How often each is used.
     #[cfg(test)]
-    pub(super) fn len(&self) -> usize {
-        self.entries.len()
+    pub(super) fn uses(&self) -> alloc::collections::BTreeMap<NameId, usize> {
+        self.entries.iter().map(|(&id, entry)| (id, entry.uses)).collect()
     }
 }
 
@@ -103,7 +103,7 @@ mod tests {
         names.release(first);
         assert_eq!(names.name(first), a);
         names.release(first);
-        assert_eq!((names.find(&a), names.len()), (None, 2));
+        assert_eq!((names.find(&a), names.uses().len()), (None, 2));
         assert_eq!((names.hold(&RT.into(), false), names.hold(&a, false)), (RT_ID, first));
     }
 }
