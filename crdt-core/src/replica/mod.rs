@@ -3,8 +3,9 @@
 //!
 //! | room | what it keeps or does |
 //! |---|---|
-//! | [`map`] | an ordered map whose clone shares everything: all that follows is made of it |
+//! | [`map`], [`node`] | an ordered map whose clone shares everything: all that follows is made of it |
 //! | [`names`], [`held`], [`graph`] | records by dot, writes and claims by register, vertices by name and type |
+//! | [`filing`], [`links`] | records into all indexes and out of them; the edges that a vertex is linked by |
 //! | [`plan`] | what joining a delta removes and adds: merge and closure by the indexes of anchors |
 //! | [`settle`] | carries that out, and brings each part of the view up to date where it is touched |
 //! | [`registers`], [`tree`], [`paths`], [`vertices`], [`attributes`] | the parts |
@@ -31,11 +32,14 @@ mod attributes;
 mod changes;
 #[cfg(test)]
 mod check;
+mod filing;
 mod graph;
 mod ground;
 mod held;
+mod links;
 mod map;
 mod names;
+mod node;
 mod paths;
 mod plan;
 mod read;

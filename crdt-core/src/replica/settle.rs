@@ -5,7 +5,8 @@
 //! becomes the changes, so these are exact by construction. `[spec: EVENT-1]`
 
 use super::changes::{Change, Changes};
-use super::graph::{Gone, Graph};
+use super::filing::Gone;
+use super::graph::Graph;
 use super::held::{Held, HeldEdge, HeldVertex, Status, WriteAt};
 use crate::dot::{Dot, EdgeId, VertexId};
 use crate::record::Record;
