@@ -17,7 +17,7 @@
 //! | operation | usual | worst |
 //! |---|---|---|
 //! | `apply` of a write | O(log n) | and the live writes of its register |
-//! | of a vertex, an edge | O(log n) | and all that waited for it |
+//! | of a vertex, an edge | O(log n) | and all that waited for it, its namesakes, the claims of its register |
 //! | of a symbolic edge's end | O(log n) | and what reached the root only by it, or the band that it was in |
 //! | of a kinematic claim | O(depth · log n) | and the lesser claims in conflict; what hangs below, if paths need it |
 //! | of k edits | the sum | the sum: O(k · depth · log n), and what they strand |
