@@ -47,6 +47,7 @@ pub mod json;
 pub mod limits;
 mod mutation;
 mod record;
+mod replica;
 #[cfg(feature = "serde")]
 pub mod scene;
 mod state;
@@ -61,6 +62,7 @@ pub use digest::{Digest, Fingerprint, delta_for, digest, fingerprint};
 pub use dot::{Dot, EdgeId, ParseDotError, ReplicaId, VertexId};
 pub use mutation::*;
 pub use record::{Edge, EdgeKey, Name, RT, Rank, Record, Vertex, Write};
+pub use replica::{Change, Changes, Graph, Mutated, Replica, Shown};
 pub use state::{Delta, State};
 pub use value::{Value, ValueType};
 pub use view::{Placement, Repair, Rule, ShownEdge, Shows, View, view};

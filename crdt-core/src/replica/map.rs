@@ -1,0 +1,294 @@
+//! An ordered map whose clone shares everything: a B-tree of shared nodes, copied only where a writer meets
+//! a node that somebody else still reads.
+//!
+//! | operation | comparisons | copies |
+//! |---|---|---|
+//! | `get`, `range` | O(log n) | none |
+//! | `insert`, `remove`, `get_mut` | O(log n), and O(64) moves | none, or O(log n) nodes after a `clone` |
+//! | `clone` | none | none |
+//!
+//! A node that is full is split where the new entry goes, not in the middle, so that keys that only grow, as
+//! dots do, fill every leaf.
+
+use super::node::{List, Node, child_of};
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+use core::borrow::Borrow;
+use core::iter::Zip;
+use core::slice;
+
+/// See the [module](self).
+#[derive(Debug)]
+pub(crate) struct Map<K, V> {
+    root: Arc<Node<K, V>>,
+    len: usize,
+}
+
+impl<K, V> Clone for Map<K, V> {
+    fn clone(&self) -> Self {
+        Self { root: Arc::clone(&self.root), len: self.len }
+    }
+}
+
+impl<K, V> Default for Map<K, V> {
+    fn default() -> Self {
+        Self { root: Arc::new(Node::Leaf(List::new())), len: 0 }
+    }
+}
+
+impl<K: Ord + Clone, V: Clone> Map<K, V> {
+    pub(crate) fn len(&self) -> usize {
+        self.len
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    pub(crate) fn get<Q: Ord + ?Sized>(&self, key: &Q) -> Option<&V>
+    where
+        K: Borrow<Q>,
+    {
+        let mut node = &*self.root;
+        loop {
+            match node {
+                Node::Leaf(entries) => {
+                    let at = entries.keys.binary_search_by(|known| known.borrow().cmp(key)).ok()?;
+                    return Some(&entries.values[at]);
+                }
+                Node::Inner(children) => node = &children.values[child_of(&children.keys, key)],
+            }
+        }
+    }
+
+    pub(crate) fn contains(&self, key: &K) -> bool {
+        self.get(key).is_some()
+    }
+
+    /// For a key that is there: what is not there costs a second descent, and copies nothing.
+    pub(crate) fn get_mut(&mut self, key: &K) -> Option<&mut V> {
+        if Arc::get_mut(&mut self.root).is_none() && !self.contains(key) {
+            return None;
+        }
+        let mut node = Arc::make_mut(&mut self.root);
+        loop {
+            match node {
+                Node::Leaf(entries) => {
+                    let at = entries.keys.binary_search(key).ok()?;
+                    return Some(&mut entries.values[at]);
+                }
+                Node::Inner(children) => {
+                    let at = child_of(&children.keys, key);
+                    node = Arc::make_mut(&mut children.values[at]);
+                }
+            }
+        }
+    }
+
+    /// Inserts; the value replaced.
+    pub(crate) fn insert(&mut self, key: K, value: V) -> Option<V> {
+        let root = Arc::make_mut(&mut self.root);
+        let (old, added) = root.insert(key, value);
+        if let Some((least, right)) = added {
+            // The first key is not looked at: any will do.
+            let left = core::mem::replace(&mut self.root, Arc::new(Node::Leaf(List::new())));
+            let children = List { keys: Vec::from([least.clone(), least]), values: Vec::from([left, right]) };
+            self.root = Arc::new(Node::Inner(children));
+        }
+        self.len += usize::from(old.is_none());
+        old
+    }
+
+    /// Removes; the value that was there.
+    pub(crate) fn remove(&mut self, key: &K) -> Option<V> {
+        if Arc::get_mut(&mut self.root).is_none() && !self.contains(key) {
+            return None;
+        }
+        let old = Arc::make_mut(&mut self.root).remove(key)?;
+        self.len -= 1;
+        while let Node::Inner(children) = &*self.root
+            && let [only] = &children.values[..]
+        {
+            self.root = Arc::clone(only);
+        }
+        Some(old)
+    }
+
+    /// The entries from `key` on, ascending.
+    pub(crate) fn range(&self, key: &K) -> Range<'_, K, V> {
+        let (leaf, next) = self.leaf_from(key);
+        let start = leaf.keys.partition_point(|known| known < key);
+        Range { map: self, leaf: leaf.keys[start..].iter().zip(&leaf.values[start..]), next }
+    }
+
+    /// The leaf that a key belongs to, and the key at which the leaf after it begins.
+    fn leaf_from(&self, key: &K) -> (&List<K, V>, Option<&K>) {
+        let (mut node, mut next) = (&*self.root, None);
+        loop {
+            match node {
+                Node::Leaf(entries) => return (entries, next),
+                Node::Inner(children) => {
+                    let at = child_of(&children.keys, key);
+                    next = children.keys.get(at + 1).or(next);
+                    node = &children.values[at];
+                }
+            }
+        }
+    }
+
+    /// All entries, ascending.
+    pub(crate) fn iter(&self) -> Range<'_, K, V> {
+        let (mut node, mut next) = (&*self.root, None);
+        loop {
+            match node {
+                Node::Leaf(entries) => {
+                    return Range { map: self, leaf: entries.keys.iter().zip(&entries.values), next };
+                }
+                Node::Inner(children) => {
+                    next = children.keys.get(1).or(next);
+                    node = &children.values[0];
+                }
+            }
+        }
+    }
+
+    /// The greatest entry.
+    pub(crate) fn last(&self) -> Option<(&K, &V)> {
+        let mut node = &*self.root;
+        loop {
+            match node {
+                Node::Leaf(entries) => return entries.keys.last().zip(entries.values.last()),
+                Node::Inner(children) => node = children.values.last()?,
+            }
+        }
+    }
+}
+
+/// Entries in order.
+#[derive(Debug)]
+pub(crate) struct Range<'m, K, V> {
+    map: &'m Map<K, V>,
+    leaf: Zip<slice::Iter<'m, K>, slice::Iter<'m, V>>,
+    next: Option<&'m K>,
+}
+
+impl<K, V> Clone for Range<'_, K, V> {
+    fn clone(&self) -> Self {
+        Self { map: self.map, leaf: self.leaf.clone(), next: self.next }
+    }
+}
+
+impl<'m, K: Ord + Clone, V: Clone> Iterator for Range<'m, K, V> {
+    type Item = (&'m K, &'m V);
+
+    #[inline]
+    fn next(&mut self) -> Option<Self::Item> {
+        loop {
+            if let Some((key, value)) = self.leaf.next() {
+                return Some((key, value));
+            }
+            let (leaf, next) = self.map.leaf_from(self.next?);
+            (self.leaf, self.next) = (leaf.keys.iter().zip(&leaf.values), next);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::node::FULL;
+    use super::*;
+    use alloc::collections::BTreeMap;
+    use alloc::vec;
+
+    impl<K: Ord + Clone, V: Clone> Map<K, V> {
+        /// Depth of leaves; every node obeys its bounds.
+        fn check(node: &Node<K, V>, low: Option<&K>, high: Option<&K>) -> usize {
+            let inside = |key: &K| low.is_none_or(|low| low <= key) && high.is_none_or(|high| key < high);
+            assert!(node.size() <= FULL);
+            match node {
+                Node::Leaf(entries) => {
+                    assert!(entries.keys.iter().all(inside));
+                    assert!(entries.keys.is_sorted_by(|l, r| l < r));
+                    assert_eq!(entries.keys.len(), entries.values.len());
+                    0
+                }
+                Node::Inner(children) => {
+                    assert!(children.len() > 1 && children.len() == children.values.len());
+                    assert!(children.keys[1..].iter().all(inside));
+                    let depths: Vec<usize> = (0..children.len())
+                        .map(|at| {
+                            let low = if at == 0 { low } else { Some(&children.keys[at]) };
+                            let high = children.keys.get(at + 1).or(high);
+                            Self::check(&children.values[at], low, high)
+                        })
+                        .collect();
+                    assert!(depths.windows(2).all(|pair| pair[0] == pair[1]));
+                    depths[0] + 1
+                }
+            }
+        }
+    }
+
+    /// Noise of Knuth's constants: the same on every run.
+    fn noise() -> impl FnMut(u64) -> u64 {
+        let mut state = 7_u64;
+        move |below| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) % below
+        }
+    }
+
+    #[test]
+    fn oracle_a_map_is_a_btree_map_and_its_clones_stay_as_they_were() {
+        let mut below = noise();
+        for span in [20, 300, 5000] {
+            let (mut map, mut known) = (Map::default(), BTreeMap::new());
+            let mut kept = vec![];
+            for round in 0..12_000_u64 {
+                let key = below(span);
+                let growing = round / 2000 % 2 == 0;
+                if below(10) < if growing { 7 } else { 3 } {
+                    assert_eq!(map.insert(key, round), known.insert(key, round));
+                } else if below(3) == 0 {
+                    assert_eq!(map.get_mut(&key), known.get_mut(&key));
+                } else {
+                    assert_eq!(map.remove(&key), known.remove(&key));
+                }
+                let probe = below(span);
+                assert_eq!(map.get(&probe), known.get(&probe));
+                assert_eq!(map.range(&probe).next(), known.range(probe..).next());
+                if round % 499 == 0 {
+                    kept.push((map.clone(), known.clone()));
+                }
+                if round % 61 == 0 {
+                    Map::check(&map.root, None, None);
+                    assert!(map.iter().eq(known.iter()));
+                    assert!(map.range(&probe).eq(known.range(probe..)));
+                    assert_eq!((map.len(), map.last()), (known.len(), known.last_key_value()));
+                }
+            }
+            assert!(kept.iter().all(|(map, known)| map.iter().eq(known.iter())));
+            for key in 0..span {
+                map.remove(&key);
+            }
+            assert!(map.is_empty() && map.iter().next().is_none());
+        }
+    }
+
+    #[test]
+    fn law_growing_keys_fill_every_leaf() {
+        fn leaves<K, V>(node: &Node<K, V>) -> usize {
+            match node {
+                Node::Leaf(_) => 1,
+                Node::Inner(children) => children.values.iter().map(|child| leaves(child)).sum(),
+            }
+        }
+        // Two authors in turn: one grows in the middle.
+        let mut map = Map::default();
+        for at in 0..10_000_u64 {
+            map.insert((at % 2, at), ());
+        }
+        Map::check(&map.root, None, None);
+        assert!(leaves(&map.root) <= 10_000 / FULL + 10, "{}", leaves(&map.root));
+    }
+}
