@@ -4,10 +4,10 @@
 //! status of each record still written on it or on what has gone, and writes the new one. What differs
 //! becomes the changes, so these are exact by construction. `[spec: EVENT-1]`
 
-use super::changes::{Change, Changes};
 use super::filing::Gone;
 use super::graph::Graph;
 use super::held::{Held, HeldEdge, HeldVertex, Status, WriteAt};
+use crate::changes::{Change, Changes};
 use crate::dot::{Dot, EdgeId, VertexId};
 use crate::record::Record;
 use crate::view::Repair;
@@ -131,7 +131,7 @@ impl Settling<'_> {
         for gone in &self.gone {
             self.graph.release(gone);
         }
-        Outcome { changes: Changes::new(self.changes), stranded, gone, came: self.came }
+        Outcome { changes: self.changes.into_iter().collect(), stranded, gone, came: self.came }
     }
 
     fn touches_vertices(&self) -> bool {
