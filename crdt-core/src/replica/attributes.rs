@@ -1,9 +1,10 @@
 //! Attributes: which writes of each register are shown. `[spec: VIEW-8]`
 
+use super::flips::Flip;
 use super::graph::Graph;
 use super::held::{Exposure, Held, HeldWrite, Status};
 use super::names::NameId;
-use super::settle::{Came, Flip, Settling};
+use super::settle::{Came, Settling};
 use crate::changes::Change;
 use crate::dot::{Dot, VertexId};
 use crate::record::{Name, Rank};

@@ -8,7 +8,8 @@
 //! | [`filing`], [`links`] | records into all indexes and out of them; the edges that a vertex is linked by |
 //! | [`plan`] | what joining a delta removes and adds: merge and closure by the indexes of anchors |
 //! | [`settle`] | carries that out, and brings each part of the view up to date where it is touched |
-//! | [`registers`], [`tree`], [`paths`], [`vertices`], [`attributes`] | the parts |
+//! | [`flips`] | the edge claims that come into sight or go out of it |
+//! | [`registers`], [`tree`], [`detached`], [`paths`], [`vertices`], [`attributes`] | the parts |
 //! | [`read`], [`ground`], [`shown`] | the faces for readers, for mutations, for judges |
 //!
 //! With n records, and k edits (records that come or go by a delta and by closure):
@@ -30,7 +31,9 @@
 mod attributes;
 #[cfg(test)]
 mod check;
+mod detached;
 mod filing;
+mod flips;
 mod graph;
 mod ground;
 mod held;
