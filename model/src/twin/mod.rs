@@ -47,6 +47,8 @@ pub struct Twin<F = Replica> {
     name: &'static str,
     core: Checked,
     compares: bool,
+    /// A replica that has seen nothing.
+    blank: F,
     initial: Held<F>,
 }
 
@@ -69,19 +71,19 @@ impl<F: Fast> Twin<F> {
     }
 
     fn new(name: &'static str, core: Checked, compares: bool) -> Self {
-        let start = Held::alone(F::start(&core.dictionary));
-        let twin = Self { name, core, compares, initial: start };
-        Self { initial: twin.from(&twin.core.initial), ..twin }
+        let blank = F::start(&core.dictionary);
+        let twin = Self { name, core, compares, initial: Held::alone(blank.clone()), blank };
+        Self { initial: twin.replica_of(&twin.core.initial), ..twin }
     }
 
     /// A replica that has joined a whole state.
-    fn from(&self, state: &State) -> Held<F> {
-        self.join(&Held::alone(F::start(&self.core.dictionary)), state)
+    fn replica_of(&self, state: &State) -> Held<F> {
+        self.join(&Held::alone(self.blank.clone()), state)
     }
 
     /// A state that no replica comes to, such as one that is not closed.
     fn without_replica(&self, state: State) -> Held<F> {
-        Held { state, ..Held::alone(F::start(&self.core.dictionary)) }
+        Held { replica: self.blank.clone(), state, fault: None, told: None }
     }
 
     fn view<'s>(&'s self, held: &'s Held<F>) -> View<'s> {
@@ -300,7 +302,7 @@ impl<F: Fast> Semantics for Twin<F> {
     }
 
     fn rename_state(&self, held: &Held<F>, to: &[usize]) -> Held<F> {
-        self.from(&self.core.rename_state(&held.state, to))
+        self.replica_of(&self.core.rename_state(&held.state, to))
     }
 
     fn rename_delta(&self, delta: &Delta, to: &[usize]) -> Delta {
@@ -340,7 +342,7 @@ impl<F: Fast> Semantics for Twin<F> {
     }
 
     fn state_from_json(&self, json: &serde_json::Value) -> Option<Held<F>> {
-        Some(self.from(&self.core.state_from_json(json)?))
+        Some(self.replica_of(&self.core.state_from_json(json)?))
     }
 
     fn mutation_from_json(&self, held: &Held<F>, replica: usize, json: &serde_json::Value) -> Option<Act> {
@@ -368,7 +370,7 @@ impl<F: Fast> Algebra for Twin<F> {
             .map(|Family { name, records, all, closed }| {
                 let of = |(at, state)| {
                     if closed.binary_search(&at).is_ok() {
-                        self.from(&state)
+                        self.replica_of(&state)
                     } else {
                         self.without_replica(state)
                     }
