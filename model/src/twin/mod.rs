@@ -12,21 +12,22 @@
 //! | state and changes told | of every delivery that is carried out |
 //! | a snapshot | after its replica has gone on |
 
+mod algebra;
 mod compare;
 mod core;
 mod fast;
 mod held;
+mod step;
 
 pub use core::{Core, OnCore};
 pub use fast::Fast;
 pub use held::Held;
 
-use crate::algebra::{Algebra, Family, core_universe};
-use crate::checked::{Act, Checked, check_delivery, check_step, judge_state, looks, replica_id};
+use crate::checked::{Act, Checked, check_delivery, check_step, judge_state, looks};
 use crate::graph::Graph;
 use crate::semantics::{Breach, Clause, Competition, Judged, Semantics, Step, WHOLE};
 use crate::why::{Claim, Standing, Target};
-use dsr_core::{Author, Delta, Replica, State, View, view};
+use dsr_core::{Delta, Replica, State, View, view};
 use std::sync::Arc;
 
 /// The name in reports and traces of the fast replica alone.
@@ -89,31 +90,6 @@ impl<F: Fast> Twin<F> {
     fn view<'s>(&'s self, held: &'s Held<F>) -> View<'s> {
         view(&held.state, &self.core.dictionary)
     }
-
-    /// A step beside the reference. Where both refuse it alike there is none; where they differ, the state after
-    /// it says how.
-    fn step(&self, held: &Held<F>, before: &View<'_>, replica: usize, act: &Act) -> Option<Step<Self>> {
-        let author = Author::new(replica_id(replica));
-        let expected = act.0.delta(before, author);
-        let mut replica = held.replica.for_author(author.replica);
-        let found = replica.mutate(&act.0);
-        let mut fault = compare::made(&found, &expected).err();
-        if fault.is_none() && found.is_err() {
-            fault = compare::shown("REPLICA-1", &replica, before).err();
-            fault.as_ref()?;
-        }
-        let told = found.as_ref().map(|made| Arc::new(made.changes.clone())).ok();
-        let delta = expected.ok().or_else(|| Some(found.ok()?.delta)).unwrap_or_default();
-        let fault = held.fault.clone().or_else(|| fault.map(Arc::new));
-        let after = Held { replica, state: held.state.joined(&delta), fault, told };
-        Some(Step { delta, after })
-    }
-
-    fn step_alone(&self, held: &Held<F>, replica: usize, act: &Act) -> Option<Step<Self>> {
-        let mut replica = held.replica.for_author(replica_id(replica));
-        let made = replica.mutate(&act.0).ok()?;
-        Some(Step { delta: made.delta, after: Held::alone(replica) })
-    }
 }
 
 impl<F: Fast> Semantics for Twin<F> {
@@ -143,9 +119,9 @@ impl<F: Fast> Semantics for Twin<F> {
 
     fn mutate(&self, held: &Held<F>, replica: usize, act: &Act) -> Option<Step<Self>> {
         if self.compares {
-            self.step(held, &self.view(held), replica, act)
+            Self::step(held, &self.view(held), replica, act)
         } else {
-            self.step_alone(held, replica, act)
+            Self::step_alone(held, replica, act)
         }
     }
 
@@ -157,8 +133,8 @@ impl<F: Fast> Semantics for Twin<F> {
         };
         let step = |act: Act| {
             let step = match &before {
-                Some(before) => self.step(held, before, replica, &act),
-                None => self.step_alone(held, replica, &act),
+                Some(before) => Self::step(held, before, replica, &act),
+                None => Self::step_alone(held, replica, &act),
             };
             Some((act, step?))
         };
@@ -359,41 +335,5 @@ impl<F: Fast> Semantics for Twin<F> {
 
     fn delta_json(&self, delta: &Delta) -> serde_json::Value {
         self.core.delta_json(delta)
-    }
-}
-
-/// A replica joins and closes at once: the laws of merge and of closure by themselves are those of the reference.
-impl<F: Fast> Algebra for Twin<F> {
-    fn universe(&self, records: usize) -> Vec<Family<Held<F>>> {
-        let families = core_universe(records).into_iter();
-        families
-            .map(|Family { name, records, all, closed }| {
-                let of = |(at, state)| {
-                    if closed.binary_search(&at).is_ok() {
-                        self.replica_of(&state)
-                    } else {
-                        self.without_replica(state)
-                    }
-                };
-                let all = all.into_iter().enumerate().map(of).collect();
-                Family { name, records, all, closed }
-            })
-            .collect()
-    }
-
-    fn body<'s>(&self, held: &'s Held<F>) -> Option<&'s State> {
-        Some(&held.state)
-    }
-
-    fn delta_body<'d>(&self, delta: &'d Delta) -> Option<&'d State> {
-        Some(delta)
-    }
-
-    fn merge(&self, left: &Held<F>, right: &Held<F>) -> Option<Held<F>> {
-        self.core.merge(&left.state, &right.state).map(|state| self.without_replica(state))
-    }
-
-    fn close(&self, held: &Held<F>) -> Option<Held<F>> {
-        self.core.close(&held.state).map(|state| self.without_replica(state))
     }
 }
