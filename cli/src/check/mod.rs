@@ -70,7 +70,7 @@ pub(crate) struct Arguments {
     /// Whose semantics is checked
     #[arg(long, value_enum, default_value_t = Whose::Checked)]
     semantics: Whose,
-    /// Which core is asked; if not said, the reference, and both in L2, in small runs of L1 and in L0 of three records
+    /// Which core is asked; if not said, the reference, and both in L0, in L2 and in small runs of L1
     #[arg(long, value_enum)]
     core: Option<CoreName>,
     /// Which implementation of the published semantics; `upstream` if not said
@@ -149,8 +149,8 @@ pub(crate) enum CoreName {
     Reference,
     /// The fast replica alone
     Fast,
-    /// The fast replica beside the reference, and all that can be seen of both compared: L1 takes about four times
-    /// as long as with the reference
+    /// The fast replica beside the reference, and all that can be seen of both compared: L1 takes between three and
+    /// four times as long as with the reference
     Both,
 }
 

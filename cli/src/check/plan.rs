@@ -18,7 +18,7 @@ use std::sync::Arc;
 const FOCUS_DEFAULT: usize = 2;
 
 /// L0 asks both cores of states of at most this many records, unless one is named.
-const RECORDS_OF_BOTH: usize = 3;
+const RECORDS_OF_BOTH: usize = 4;
 
 /// Random walks of a run unless `--walks` says otherwise.
 const WALKS: u64 = 1000;
