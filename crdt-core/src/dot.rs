@@ -10,7 +10,7 @@ use core::str::FromStr;
 ///
 /// A replica that restarts without its counter must take a fresh incarnation: a dot that is used twice
 /// breaks convergence. `[spec: ID-3]`
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub struct ReplicaId {
     /// The agent's number, given by the deployment.
     pub agent: u32,
@@ -37,6 +37,27 @@ impl ReplicaId {
     }
 }
 
+impl ReplicaId {
+    const fn as_number(self) -> u64 {
+        (self.agent as u64) << 32 | self.incarnation as u64
+    }
+}
+
+/// By agent, then incarnation. `[spec: ID-1]`
+impl Ord for ReplicaId {
+    #[inline]
+    fn cmp(&self, other: &Self) -> core::cmp::Ordering {
+        self.as_number().cmp(&other.as_number())
+    }
+}
+
+impl PartialOrd for ReplicaId {
+    #[inline]
+    fn partial_cmp(&self, other: &Self) -> Option<core::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
 /// Prints `r3`, and `r3+1` for a later incarnation.
 impl fmt::Display for ReplicaId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -48,7 +69,7 @@ impl fmt::Display for ReplicaId {
 /// One event of one replica. `[spec: ID-1]`
 ///
 /// Sequences count from 1; sequence 0 occurs only in [`VertexId::ROOT`].
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub struct Dot {
     /// Who made it.
     pub replica: ReplicaId,
@@ -60,6 +81,28 @@ impl Dot {
     /// The `sequence`-th event of `replica`.
     pub const fn new(replica: ReplicaId, sequence: u64) -> Self {
         Self { replica, sequence }
+    }
+}
+
+impl Dot {
+    /// All of it in one number, so that dots are compared at once: every index is ordered by them.
+    const fn as_number(self) -> u128 {
+        (self.replica.as_number() as u128) << 64 | self.sequence as u128
+    }
+}
+
+/// By replica, then sequence. `[spec: ID-1]`
+impl Ord for Dot {
+    #[inline]
+    fn cmp(&self, other: &Self) -> core::cmp::Ordering {
+        self.as_number().cmp(&other.as_number())
+    }
+}
+
+impl PartialOrd for Dot {
+    #[inline]
+    fn partial_cmp(&self, other: &Self) -> Option<core::cmp::Ordering> {
+        Some(self.cmp(other))
     }
 }
 

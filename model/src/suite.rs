@@ -8,6 +8,7 @@ use crate::job::{AlgebraRun, Job, ReductionRun, ScenarioRun};
 use crate::scenario::{Scenario, ScenarioError, shipped};
 use crate::schedules::{Restricted, ScheduleBound, ScheduleRun};
 use crate::semantics::Semantics;
+use crate::twin::{Core, OnCore, Twin};
 use crate::verdict::RunReport;
 use crate::walks::{Faults, Walk, WalkRun};
 use dsr_core::{Dictionary, Mutation, MutationKind, MutationKind as K, RT, State};
@@ -20,6 +21,8 @@ pub const FLAT_FOCUS: [&str; 4] = ["bedroom", "person", "bed", "robot"];
 const RECORDS: [usize; 2] = [4, 3];
 /// The same with `--deep`.
 const RECORDS_DEEP: [usize; 1] = [5];
+/// L0 asks both cores of states of at most this many records, unless one is named.
+const RECORDS_OF_BOTH: usize = 4;
 
 /// Why a suite cannot be put together.
 #[derive(Debug, thiserror::Error)]
@@ -45,24 +48,31 @@ pub struct Subject<'a> {
 
 impl Subject<'_> {
     /// The runs of `dsr check`, or of `dsr check --deep`, whose layer [`Job::layer`] is wanted: the longest
-    /// first, so that all cores are busy to the end. Walks are never among them: a sample is bounded, and would
-    /// make the whole suite so. `[spec: CHECK-13]`
+    /// first, so that all cores are busy to the end. They run on the core chosen; where none is, on both where that costs
+    /// little, and otherwise on the reference. Walks are never among them: a sample is bounded, and would make the whole
+    /// suite so. `[spec: CHECK-13]`
     pub fn suite(
         &self,
         deep: bool,
+        chosen: Option<Core>,
         is_wanted: impl Fn(&str) -> bool,
     ) -> Result<Vec<Box<dyn Job>>, SuiteError> {
-        let mut jobs = self.schedules()?;
+        let core = chosen.unwrap_or(Core::Reference);
+        let mut jobs = self.schedules(chosen.unwrap_or(Core::Both))?;
         let histories = if deep { self.deep_histories()? } else { self.default_histories()? };
-        jobs.extend(histories.into_iter().map(boxed));
+        jobs.extend(histories.into_iter().map(|run| run.on(core)));
+        if chosen.is_none() {
+            jobs.extend(self.compared_histories()?.into_iter().map(|run| run.on(Core::Both)));
+        }
         let semantics =
             self.histories(RECORDS_FOCUS, Bound { replicas: 2, mutations: 1 }, &K::ALL)?.semantics;
         let records: &[usize] = if deep { &RECORDS_DEEP } else { &RECORDS };
-        jobs.extend(
-            records.iter().map(|&records| boxed(AlgebraRun { semantics: semantics.clone(), records })),
-        );
+        jobs.extend(records.iter().map(|&records| {
+            let core = if records <= RECORDS_OF_BOTH { Core::Both } else { Core::Reference };
+            AlgebraRun { semantics: semantics.clone(), records }.on(chosen.unwrap_or(core))
+        }));
         for (file, text) in shipped() {
-            jobs.push(boxed(ScenarioRun { scenario: Scenario::read(text, file)? }));
+            jobs.push(Box::new(ScenarioRun { scenario: Scenario::read(text, file)? }));
         }
         jobs.retain(|job| is_wanted(job.layer()));
         Ok(jobs)
@@ -120,37 +130,31 @@ impl Subject<'_> {
         Ok(runs)
     }
 
+    /// Small runs of L1, each of which asks everything of both cores and costs little. `[spec: CHECK-15]`
+    pub fn compared_histories(&self) -> Result<Vec<HistoryRun<Checked>>, FocusError> {
+        let mut runs = vec![
+            self.histories(3, Bound { replicas: 2, mutations: 1 }, &K::ALL)?,
+            self.histories(2, Bound { replicas: 3, mutations: 1 }, &K::ALL)?,
+        ];
+        for pair in pairs() {
+            runs.push(self.at_last(2, Bound { replicas: 2, mutations: 2 }, &pair)?);
+        }
+        for run in &mut runs {
+            run.name.push_str(", both cores");
+        }
+        Ok(runs)
+    }
+
     /// The runs of L2: all six kinds, and four concrete mutations twice each. `[spec: CHECK-6]`
-    pub fn schedules(&self) -> Result<Vec<Box<dyn Job>>, FocusError> {
-        let once =
-            ScheduleBound { replicas: 2, readers: 0, mutations: 1, restarts: 1, resynchronisations: 1 };
-        let twice = ScheduleBound { mutations: 2, ..once };
+    pub fn schedules(&self, core: Core) -> Result<Vec<Box<dyn Job>>, FocusError> {
         let all = self.histories(SCHEDULE_FOCUS, Bound { replicas: 2, mutations: 1 }, &MutationKind::ALL)?;
-        let (focus, everything) = (all.focus, all.semantics);
-        let four = Arc::new(Restricted { mutations: four_mutations(&everything), whole: everything.clone() });
-        let reader = ScheduleBound { readers: 1, ..once };
-        Ok(vec![
-            Box::new(ScheduleRun {
-                name: "2 × 1, all six".into(),
-                semantics: everything.clone(),
-                focus,
-                bound: once,
-                second_engine: true,
-            }),
-            Box::new(ScheduleRun {
-                name: "2 × 2, four mutations".into(),
-                semantics: four.clone(),
-                focus,
-                bound: twice,
-                second_engine: true,
-            }),
-            Box::new(ReductionRun {
-                name: "2 × 1 and a reader, all six".into(),
-                semantics: everything,
-                bound: reader,
-            }),
-            Box::new(ReductionRun { name: "2 × 2, four mutations".into(), semantics: four, bound: twice }),
-        ])
+        let (focus, checked) = (all.focus, Checked::clone(&all.semantics));
+        let four = four_mutations(&checked);
+        Ok(match core {
+            Core::Reference => schedules_of(Arc::new(checked), four, focus),
+            Core::Fast => schedules_of(Arc::new(Twin::alone(checked)), four, focus),
+            Core::Both => schedules_of(Arc::new(Twin::beside(checked)), four, focus),
+        })
     }
 
     /// The runs of L3: few replicas that do much, and many that do less; with `deep` longer ones.
@@ -191,12 +195,41 @@ impl Subject<'_> {
     }
 }
 
+/// `[spec: CHECK-6]` `[spec: CHECK-7]`
+fn schedules_of<S: Semantics<Mutation = Act>>(
+    everything: Arc<S>,
+    mutations: Vec<Act>,
+    focus: usize,
+) -> Vec<Box<dyn Job>> {
+    let once = ScheduleBound { replicas: 2, readers: 0, mutations: 1, restarts: 1, resynchronisations: 1 };
+    let (twice, reader) = (ScheduleBound { mutations: 2, ..once }, ScheduleBound { readers: 1, ..once });
+    let four = Arc::new(Restricted { mutations, whole: everything.clone() });
+    vec![
+        Box::new(ScheduleRun {
+            name: "2 × 1, all six".into(),
+            semantics: everything.clone(),
+            focus,
+            bound: once,
+            second_engine: true,
+        }),
+        Box::new(ScheduleRun {
+            name: "2 × 2, four mutations".into(),
+            semantics: four.clone(),
+            focus,
+            bound: twice,
+            second_engine: true,
+        }),
+        Box::new(ReductionRun {
+            name: "2 × 1 and a reader, all six".into(),
+            semantics: everything,
+            bound: reader,
+        }),
+        Box::new(ReductionRun { name: "2 × 2, four mutations".into(), semantics: four, bound: twice }),
+    ]
+}
+
 /// A mutation goes to each replica, in the worst case with a duplicate or an answer for each.
 const EVENTS_PER_COPY: usize = 2;
-
-fn boxed(job: impl Job + 'static) -> Box<dyn Job> {
-    Box::new(job)
-}
 
 /// L0 takes its records from families of its own; the semantics is there for its dictionary.
 const RECORDS_FOCUS: usize = 2;

@@ -16,7 +16,7 @@ fn jobs() -> Vec<Box<dyn Job>> {
     let dictionary = Dictionary::aal();
     let scene = Scene::read(FLAT, &dictionary, Strictness::Strict).unwrap().scene;
     let subject = Subject { state: &scene.state, dictionary: &dictionary, names: &FLAT_FOCUS };
-    let mut jobs = subject.suite(false, |_| true).unwrap();
+    let mut jobs = subject.suite(false, None, |_| true).unwrap();
     jobs.extend(subject.walks(1, 1, false).unwrap().into_iter().map(|run| -> Box<dyn Job> { Box::new(run) }));
     jobs
 }

@@ -13,8 +13,8 @@ macro_rules! chapters {
 
 chapters! {
     "README", "checker", "claims", "closure", "conflicts", "conformance", "context", "dictionary", "encoding",
-    "identity", "intent", "invariants", "join", "limits", "mutations", "network", "oracle", "scenario", "scene", "stamps",
-    "state", "sync", "trace", "values", "view", "wellformed",
+    "identity", "intent", "invariants", "join", "limits", "mutations", "network", "oracle", "replica", "scenario", "scene",
+    "stamps", "state", "sync", "trace", "values", "view", "wellformed",
 }
 
 /// The chapters as sources.

@@ -34,5 +34,5 @@ mod world;
 pub use enabled::{NAMES, candidates, dictionary, pick};
 pub use history::{History, Step, histories};
 pub use language::{parse_state, state};
-pub use universe::{Anchors, Fate, Universe, fates, states, universes};
+pub use universe::{Anchors, Fate, Universe, encoded_states, fates, states, universes};
 pub use world::{World, author};

@@ -6,7 +6,7 @@
 
 use crate::atoms;
 use dsr_core::{
-    CausalContext, Dot, Edge, Name, RT, Record, ReplicaId, State, Value, Vertex, VertexId, Write,
+    CausalContext, Dot, Edge, Name, RT, Record, ReplicaId, State, Value, Vertex, VertexId, Write, encode,
 };
 use proptest::collection::{btree_map, vec};
 use proptest::prelude::*;
@@ -142,6 +142,12 @@ pub fn universes(records_max: usize, anchors: Anchors) -> impl Strategy<Value = 
 pub fn states(count: usize, records_max: usize, anchors: Anchors) -> impl Strategy<Value = Vec<State>> {
     fates(count, records_max, anchors)
         .prop_map(|(universe, fates)| fates.iter().map(|fates| universe.state(fates)).collect())
+}
+
+/// Some well-formed states over one universe as bytes, for tests inside the core: its own types are not those
+/// of the crate that is linked here.
+pub fn encoded_states(count: usize, records_max: usize) -> impl Strategy<Value = Vec<Vec<u8>>> {
+    states(count, records_max, Anchors::Right).prop_map(|states| states.iter().map(encode).collect())
 }
 
 /// A universe and the fates that some states give to its dots, not closed.

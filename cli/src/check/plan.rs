@@ -1,6 +1,6 @@
 //! Which runs the arguments ask for.
 
-use super::{AgentIds, Arguments, Layer, VariantName, Whose};
+use super::{AgentIds, Arguments, CoreName, Layer, VariantName, Whose};
 use crate::input::{self, InputError};
 use dsr_core::scene::{FLAT, Scene, Strictness};
 use dsr_core::{Dictionary, MutationKind};
@@ -10,6 +10,7 @@ use dsr_model::published::suite as published_suite;
 use dsr_model::published::{Stamps, Variant, Workers};
 use dsr_model::scenario::Scenario;
 use dsr_model::suite::{FLAT_FOCUS, Subject};
+use dsr_model::twin::{Core, OnCore};
 use std::path::Path;
 
 /// Replicas touch this many vertices of a scene unless `--focus` names them.
@@ -23,6 +24,9 @@ const WALKS_DEEP: u64 = 100_000;
 /// Runs, the longest first, so that two cores are busy to the end.
 pub(super) fn jobs(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
     match arguments.semantics {
+        Whose::Published if arguments.core.is_some() => {
+            return Err("--core is of the checked semantics: leave out --semantics published".into());
+        }
         Whose::Published => return published(arguments),
         Whose::Checked if arguments.variant.is_some() || arguments.agent_id.is_some() => {
             return Err(
@@ -84,12 +88,14 @@ fn suite(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
     let scene = Scene::read(FLAT, &dictionary, Strictness::Strict).map_err(|error| error.to_string())?.scene;
     let subject = Subject { state: &scene.state, dictionary: &dictionary, names: &FLAT_FOCUS };
     let mut jobs: Vec<Box<dyn Job>> = Vec::new();
+    // Both cores where that costs little, unless one is named.
+    let chosen = arguments.core.map(CoreName::core);
     // Never by default: a sample is bounded, and would make the whole suite so.
     if arguments.layer.contains(&Layer::Walks) {
         let (walks, deep) = (if arguments.deep { WALKS_DEEP } else { WALKS }, arguments.deep);
         let runs = subject.walks(arguments.seed, arguments.walks.unwrap_or(walks), deep);
         for run in runs.map_err(|error| error.to_string())? {
-            jobs.push(Box::new(run));
+            jobs.push(run.on(chosen.unwrap_or(Core::Reference)));
         }
     }
     let is_wanted = |layer: &str| {
@@ -100,7 +106,7 @@ fn suite(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
             _ => Layer::L2,
         })
     };
-    jobs.extend(subject.suite(arguments.deep, is_wanted).map_err(|error| error.to_string())?);
+    jobs.extend(subject.suite(arguments.deep, chosen, is_wanted).map_err(|error| error.to_string())?);
     Ok(jobs)
 }
 
@@ -140,7 +146,7 @@ fn of_file(arguments: &Arguments, file: &str) -> Result<Box<dyn Job>, String> {
     let mut run =
         subject.histories(names.len(), bound, &kinds).map_err(|error| format!("{file}: {error}"))?;
     run.name = format!("{file} [{}]: {}", names.join(", "), run.name);
-    Ok(Box::new(run))
+    Ok(run.on(arguments.core.map_or(Core::Reference, CoreName::core)))
 }
 
 fn is_scenario(file: &str) -> bool {

@@ -1,6 +1,6 @@
 //! Mutation 2. `[spec: MUT-2.1]` and following.
 
-use super::{AddEdgeError, AttributeMap, Author, Draft, attributes, new_edge};
+use super::{AddEdgeError, AttributeMap, Author, Draft, Ground, attributes, new_edge};
 use crate::record::EdgeKey;
 use crate::state::Delta;
 use crate::view::View;
@@ -15,10 +15,19 @@ pub fn add_edge(
     key: &EdgeKey,
     attributes: &AttributeMap,
 ) -> Result<Delta, AddEdgeError> {
+    add_edge_to(view, author, key, attributes)
+}
+
+pub(crate) fn add_edge_to(
+    view: &impl Ground,
+    author: Author,
+    key: &EdgeKey,
+    attributes: &AttributeMap,
+) -> Result<Delta, AddEdgeError> {
     new_edge::check(view, key)?;
     attributes::check(view.dictionary(), attributes.iter())?;
-    let mut draft = Draft::new(view.state(), author)?;
+    let mut draft = Draft::new(view, author, 1 + attributes.len())?;
     draft.kill_register(view, key);
-    draft.edge(key, attributes)?;
+    draft.edge(key, attributes);
     Ok(draft.delta)
 }

@@ -1,6 +1,6 @@
 //! Mutation 1. `[spec: MUT-1.1]` and following.
 
-use super::{AddVertexError, AttributeMap, Author, Draft, attributes, new_edge};
+use super::{AddVertexError, AttributeMap, Author, Draft, Ground, attributes, new_edge};
 use crate::dot::VertexId;
 use crate::limits;
 use crate::record::{EdgeKey, Name, RT, Record, Vertex};
@@ -73,32 +73,42 @@ pub fn add_vertex(
     vertex: &NewVertex,
     link: &VertexLink,
 ) -> Result<Delta, AddVertexError> {
+    add_vertex_to(view, author, vertex, link)
+}
+
+pub(crate) fn add_vertex_to(
+    view: &impl Ground,
+    author: Author,
+    vertex: &NewVertex,
+    link: &VertexLink,
+) -> Result<Delta, AddVertexError> {
     check_vertex(view, vertex)?;
     attributes::check(view.dictionary(), vertex.attributes.iter())?;
     attributes::check(view.dictionary(), link.attributes.iter())?;
     check_link(view, link)?;
 
-    let mut draft = Draft::new(view.state(), author)?;
+    let records = 2 + link.attributes.len() + vertex.attributes.len();
+    let mut draft = Draft::new(view, author, records)?;
     let record = Vertex {
         vertex_type: vertex.vertex_type.clone(),
         name: vertex.name.clone(),
         external_id: vertex.external_id,
         stamp: draft.stamp,
     };
-    let dot = draft.add(Record::Vertex(record))?;
+    let dot = draft.add(Record::Vertex(record));
     let new = VertexId(dot);
     let (from, to) = if link.outgoing { (new, link.other) } else { (link.other, new) };
     let key = EdgeKey { from, to, label: link.label.clone() };
     // Only a functional label of a live source can have competitors, and then only pending ones.
     // [spec: MUT-1.6]
     draft.kill_register(view, &key);
-    draft.edge(&key, &link.attributes)?;
-    draft.write_all(dot, &vertex.attributes)?;
+    draft.edge(&key, &link.attributes);
+    draft.write_all(dot, &vertex.attributes);
     Ok(draft.delta)
 }
 
 /// Whether type and name may be used, and the name is free. `[spec: MUT-1.2]` `[spec: MUT-1.3]`
-fn check_vertex(view: &View<'_>, vertex: &NewVertex) -> Result<(), AddVertexError> {
+fn check_vertex(view: &impl Ground, vertex: &NewVertex) -> Result<(), AddVertexError> {
     for text in [&vertex.vertex_type, &vertex.name] {
         let bytes = text.len();
         if bytes == 0 || bytes > limits::NAME_BYTES_MAX {
@@ -118,7 +128,7 @@ fn check_vertex(view: &View<'_>, vertex: &NewVertex) -> Result<(), AddVertexErro
 }
 
 /// Whether the link can be made. Its other end may be stranded. `[spec: MUT-1.1]` `[spec: MUT-1.7]`
-fn check_link(view: &View<'_>, link: &VertexLink) -> Result<(), super::NewEdgeError> {
+fn check_link(view: &impl Ground, link: &VertexLink) -> Result<(), super::NewEdgeError> {
     use super::NewEdgeError as E;
     new_edge::check_label(view.dictionary(), &link.label)?;
     if !view.has_vertex(link.other) {
@@ -131,11 +141,11 @@ fn check_link(view: &View<'_>, link: &VertexLink) -> Result<(), super::NewEdgeEr
         }
         return new_edge::check_parent(view, link.other);
     }
-    if !link.outgoing && view.dictionary().is_functional(&link.label) {
-        let held = view.edges_from(link.other).iter().find(|shown| shown.edge.label == link.label);
-        if let Some(held) = held {
-            return Err(E::FunctionalTaken { label: link.label.clone(), existing: held.edge.key() });
-        }
+    if !link.outgoing
+        && view.dictionary().is_functional(&link.label)
+        && let Some(existing) = view.functional_edge(link.other, &link.label)
+    {
+        return Err(E::FunctionalTaken { label: link.label.clone(), existing });
     }
     Ok(())
 }

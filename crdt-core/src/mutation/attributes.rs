@@ -1,7 +1,7 @@
 //! Attributes given to a mutation.
 
 use super::Draft;
-use super::error::{AttributeError, ExhaustedError};
+use super::error::AttributeError;
 use crate::dictionary::Dictionary;
 use crate::dot::Dot;
 use crate::limits;
@@ -53,15 +53,14 @@ pub(super) fn check_one(dictionary: &Dictionary, name: &Name, value: &Value) -> 
 
 impl Draft {
     /// Files a write.
-    pub(super) fn write(&mut self, target: Dot, name: &Name, value: &Value) -> Result<(), ExhaustedError> {
+    pub(super) fn write(&mut self, target: Dot, name: &Name, value: &Value) {
         let value = value.clone().with_canonical_nans();
         let (timestamp_ns, stamp) = (self.author.timestamp_ns, self.stamp);
-        self.add(Record::Write(Write { target, name: name.clone(), value, timestamp_ns, stamp }))?;
-        Ok(())
+        self.add(Record::Write(Write { target, name: name.clone(), value, timestamp_ns, stamp }));
     }
 
     /// Files the writes of a new element.
-    pub(super) fn write_all(&mut self, target: Dot, attributes: &AttributeMap) -> Result<(), ExhaustedError> {
-        attributes.iter().try_for_each(|(name, value)| self.write(target, name, value))
+    pub(super) fn write_all(&mut self, target: Dot, attributes: &AttributeMap) {
+        attributes.iter().for_each(|(name, value)| self.write(target, name, value));
     }
 }

@@ -10,29 +10,37 @@ mod add_vertex;
 mod attributes;
 mod error;
 mod error_kind;
+mod ground;
 mod move_edge;
-mod new_edge;
+pub(crate) mod new_edge;
 mod remove_edge;
 mod remove_vertex;
 mod strand;
 mod update_attributes;
 
 pub use add_edge::add_edge;
+pub(crate) use add_edge::add_edge_to;
+pub(crate) use add_vertex::add_vertex_to;
 pub use add_vertex::{NewVertex, VertexLink, add_vertex, is_root_name};
 pub use attributes::{AttributeMap, AttributeUpdates};
 pub use error::{
     AddEdgeError, AddVertexError, AttributeError, ExhaustedError, MoveEdgeError, MutationError, NewEdgeError,
     RemoveEdgeError, RemoveVertexError, StrandError, UpdateAttributesError,
 };
+pub(crate) use ground::Ground;
+pub(crate) use move_edge::departure;
 pub use move_edge::move_edge;
+pub(crate) use remove_edge::removal_of_edge;
 pub use remove_edge::remove_edge;
+pub(crate) use remove_vertex::removal_of_vertex;
 pub use remove_vertex::remove_vertex;
+pub(crate) use update_attributes::update_attributes_of;
 pub use update_attributes::{ElementId, update_attributes};
 
 use crate::dot::{Dot, ReplicaId, VertexId};
 use crate::limits;
 use crate::record::{EdgeKey, Record};
-use crate::state::{Delta, State};
+use crate::state::Delta;
 use crate::view::View;
 
 /// Who mutates, and when by their clock.
@@ -169,20 +177,23 @@ impl Mutation {
 }
 
 /// Makes the records of one delta: hands out fresh dots, all with one stamp. `[spec: MUT-0.2]`
-struct Draft {
-    delta: Delta,
+pub(crate) struct Draft {
+    pub(crate) delta: Delta,
     author: Author,
     next: Dot,
     stamp: u64,
 }
 
 impl Draft {
-    /// Dots after every one that the author has used; a stamp above every one held.
-    /// `[spec: ID-3]` `[spec: STAMP-1]`
-    fn new(state: &State, author: Author) -> Result<Self, ExhaustedError> {
-        let sequences = ExhaustedError::Sequences { replica: author.replica };
-        let next = state.next_dot(author.replica).ok_or(sequences)?;
-        let stamp = state.greatest_stamp().saturating_add(1);
+    /// Dots for so many records after every one that the author has used; a stamp above every one held.
+    /// `[spec: ID-3]` `[spec: STAMP-1]` `[spec: MUT-0.3]`
+    fn new(ground: &impl Ground, author: Author, records: usize) -> Result<Self, ExhaustedError> {
+        let next = ground.next_dot(author.replica);
+        let left = next.map_or(0, |next| limits::SEQUENCE_MAX.saturating_add(1).saturating_sub(next.sequence));
+        let Some(next) = next.filter(|_| records as u64 <= left) else {
+            return Err(ExhaustedError::Sequences { replica: author.replica });
+        };
+        let stamp = ground.greatest_stamp().saturating_add(1);
         if stamp > limits::STAMP_MAX {
             return Err(ExhaustedError::Stamps);
         }
@@ -190,13 +201,10 @@ impl Draft {
     }
 
     /// Files a record under the next dot.
-    fn add(&mut self, record: Record) -> Result<Dot, ExhaustedError> {
+    fn add(&mut self, record: Record) -> Dot {
         let dot = self.next;
-        if dot.sequence > limits::SEQUENCE_MAX {
-            return Err(ExhaustedError::Sequences { replica: dot.replica });
-        }
         self.delta.insert(dot, record);
         self.next.sequence += 1;
-        Ok(dot)
+        dot
     }
 }

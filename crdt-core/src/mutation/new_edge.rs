@@ -1,14 +1,14 @@
 //! What every new edge must satisfy, and the claims that it supersedes: shared by the three mutations that
 //! make one.
 
-use super::Draft;
-use super::error::{ExhaustedError, NewEdgeError};
+use super::error::NewEdgeError;
+use super::{Draft, Ground};
 use crate::dictionary::Dictionary;
 use crate::dot::{Dot, VertexId};
 use crate::limits;
 use crate::record::{Edge, EdgeKey, Record};
 use crate::state::State;
-use crate::view::{Placement, View};
+use crate::view::Placement;
 
 /// Whether a label may stand on an edge. `[spec: MUT-2.2]`
 pub(super) fn check_label(dictionary: &Dictionary, label: &str) -> Result<(), NewEdgeError> {
@@ -24,7 +24,7 @@ pub(super) fn check_label(dictionary: &Dictionary, label: &str) -> Result<(), Ne
 }
 
 /// Whether an edge of this key can be added to the view. `[spec: MUT-2.1]` to `[spec: MUT-2.5]`
-pub(super) fn check(view: &View<'_>, key: &EdgeKey) -> Result<(), NewEdgeError> {
+pub(crate) fn check(view: &impl Ground, key: &EdgeKey) -> Result<(), NewEdgeError> {
     check_label(view.dictionary(), &key.label)?;
     for vertex in [key.from, key.to] {
         if !view.has_vertex(vertex) {
@@ -34,25 +34,21 @@ pub(super) fn check(view: &View<'_>, key: &EdgeKey) -> Result<(), NewEdgeError> 
     if key.from == key.to {
         return Err(NewEdgeError::SelfLoop { vertex: key.to });
     }
-    if let Some(shown) = view.edge_by_key(key) {
-        return Err(NewEdgeError::KeyPresent { key: key.clone(), existing: shown.id });
+    if let Some(existing) = view.edge_at(key) {
+        return Err(NewEdgeError::KeyPresent { key: key.clone(), existing });
     }
     if &*key.label == crate::RT {
         return check_kinematic(view, key);
     }
-    if view.dictionary().is_functional(&key.label) {
-        let held = view.edges_from(key.from).iter().find(|shown| shown.edge.label == key.label);
-        if let Some(held) = held {
-            return Err(NewEdgeError::FunctionalTaken {
-                label: key.label.clone(),
-                existing: held.edge.key(),
-            });
-        }
+    if view.dictionary().is_functional(&key.label)
+        && let Some(existing) = view.functional_edge(key.from, &key.label)
+    {
+        return Err(NewEdgeError::FunctionalTaken { label: key.label.clone(), existing });
     }
     Ok(())
 }
 
-fn check_kinematic(view: &View<'_>, key: &EdgeKey) -> Result<(), NewEdgeError> {
+fn check_kinematic(view: &impl Ground, key: &EdgeKey) -> Result<(), NewEdgeError> {
     let (parent, child) = (key.from, key.to);
     match view.placement(child) {
         Some(Placement::Root) => return Err(NewEdgeError::IntoRoot),
@@ -60,14 +56,14 @@ fn check_kinematic(view: &View<'_>, key: &EdgeKey) -> Result<(), NewEdgeError> {
         _ => {}
     }
     check_parent(view, parent)?;
-    if view.ancestors(parent).any(|vertex| vertex == child) {
+    if view.is_above(child, parent) {
         return Err(NewEdgeError::Cycle { child, parent });
     }
     Ok(())
 }
 
 /// Whether a vertex can be a kinematic parent. `[spec: MUT-2.5]`
-pub(super) fn check_parent(view: &View<'_>, parent: VertexId) -> Result<(), NewEdgeError> {
+pub(super) fn check_parent(view: &impl Ground, parent: VertexId) -> Result<(), NewEdgeError> {
     if view.in_tree(parent) { Ok(()) } else { Err(NewEdgeError::ParentOutsideTree { parent }) }
 }
 
@@ -95,22 +91,17 @@ pub(super) fn register_of<'s>(
 
 impl Draft {
     /// Supersedes every claim that competes with this key.
-    pub(super) fn kill_register(&mut self, view: &View<'_>, key: &EdgeKey) {
-        for dot in register_of(view.state(), view.dictionary(), key) {
+    pub(crate) fn kill_register(&mut self, view: &impl Ground, key: &EdgeKey) {
+        for dot in view.register_dots(key) {
             self.delta.kill(dot);
         }
     }
 
     /// Files an edge with its attributes.
-    pub(super) fn edge(
-        &mut self,
-        key: &EdgeKey,
-        attributes: &super::AttributeMap,
-    ) -> Result<Dot, ExhaustedError> {
+    pub(crate) fn edge(&mut self, key: &EdgeKey, attributes: &super::AttributeMap) {
         let stamp = self.stamp;
         let edge = Edge { from: key.from, to: key.to, label: key.label.clone(), stamp };
-        let dot = self.add(Record::Edge(edge))?;
-        self.write_all(dot, attributes)?;
-        Ok(dot)
+        let dot = self.add(Record::Edge(edge));
+        self.write_all(dot, attributes);
     }
 }

@@ -1,6 +1,6 @@
 //! Mutation 3. `[spec: MUT-3.1]` and following.
 
-use super::{AttributeError, AttributeUpdates, Author, Draft, UpdateAttributesError, attributes};
+use super::{AttributeError, AttributeUpdates, Author, Draft, Ground, UpdateAttributesError, attributes};
 use crate::dot::{Dot, EdgeId, VertexId};
 use crate::limits;
 use crate::record::{Name, Record};
@@ -52,6 +52,15 @@ pub fn update_attributes(
     target: ElementId,
     updates: &AttributeUpdates,
 ) -> Result<Delta, UpdateAttributesError> {
+    update_attributes_of(view, author, target, updates)
+}
+
+pub(crate) fn update_attributes_of(
+    view: &impl Ground,
+    author: Author,
+    target: ElementId,
+    updates: &AttributeUpdates,
+) -> Result<Delta, UpdateAttributesError> {
     let present = match target {
         ElementId::Vertex(vertex) => view.has_vertex(vertex),
         ElementId::Edge(edge) => view.shows_edge(edge),
@@ -62,25 +71,24 @@ pub fn update_attributes(
     check(view, target, updates)?;
     let mut delta = Delta::new();
     for name in updates.keys() {
-        for dot in writes_of(view.state(), target.dot(), name) {
+        for dot in view.write_dots(target.dot(), name) {
             delta.kill(dot);
         }
     }
-    let mut sets = updates.iter().filter_map(|(name, value)| Some((name, value.as_ref()?))).peekable();
-    if sets.peek().is_none() {
+    let sets = updates.iter().filter_map(|(name, value)| Some((name, value.as_ref()?)));
+    let records = sets.clone().count();
+    if records == 0 {
         // An unset makes no record, so it needs neither a dot nor a stamp. [spec: MUT-0.3]
         return Ok(delta);
     }
-    let mut draft = Draft { delta, ..Draft::new(view.state(), author)? };
-    for (name, value) in sets {
-        draft.write(target.dot(), name, value)?;
-    }
+    let mut draft = Draft { delta, ..Draft::new(view, author, records)? };
+    sets.for_each(|(name, value)| draft.write(target.dot(), name, value));
     Ok(draft.delta)
 }
 
 /// Whether there is something to do, and it can be done. `[spec: MUT-3.3]` `[spec: MUT-3.4]`
 fn check(
-    view: &View<'_>,
+    view: &impl Ground,
     target: ElementId,
     updates: &AttributeUpdates,
 ) -> Result<(), UpdateAttributesError> {
@@ -93,7 +101,7 @@ fn check(
     for (name, value) in updates {
         match value {
             Some(value) => attributes::check_one(view.dictionary(), name, value)?,
-            None if view.attribute(target, name).is_none() => {
+            None if !view.shows_attribute(target.dot(), name) => {
                 return Err(UpdateAttributesError::NotSet { target, name: name.clone() });
             }
             None => {}
@@ -103,7 +111,7 @@ fn check(
 }
 
 /// Every write of one attribute that the state holds.
-fn writes_of<'s>(state: &'s State, target: Dot, name: &'s Name) -> impl Iterator<Item = Dot> + 's {
+pub(super) fn writes_of<'s>(state: &'s State, target: Dot, name: &'s Name) -> impl Iterator<Item = Dot> + 's {
     state.records().filter_map(move |(dot, record)| match record {
         Record::Write(write) if write.target == target && write.name == *name => Some(dot),
         _ => None,
