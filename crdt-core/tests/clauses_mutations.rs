@@ -614,6 +614,37 @@ fn oracle_counters_run_out_with_an_error() {
     assert!(late.attempt(&destroy(flat.drone)).is_ok());
 }
 
+/// A move that needs more dots than are left is refused for that, before its new edge is looked at; and who has neither dots
+/// nor stamps left is told of the dots.
+/// [spec: MUT-0.3] [spec: MUT-5.3]
+#[test]
+fn regress_all_dots_of_a_move_are_counted_before_its_edge_is_judged() {
+    let mut peer = Peer::new(2);
+    let room = peer.child(ROOT, "room");
+    let lamp = peer.child(ROOT, "lamp");
+    peer.edge(lamp, "near", room);
+    let author = ReplicaId::agent(1);
+    let mut used = CausalContext::new();
+    used.insert_prefix(author, limits::SEQUENCE_MAX - 1);
+    peer.state.join(&State::assemble([], used));
+    peer.author = Author::new(author);
+    let (near, itself) = (key(lamp, "near", room), key(lamp, "near", lamp));
+    let one = Mutation::MoveEdge { from: near.clone(), to: itself.clone(), attributes: AttributeMap::new() };
+    refused(&peer, &one, MoveEdgeError::Edge(NewEdgeError::SelfLoop { vertex: lamp }));
+    let attributes = AttributeMap::from([("light".into(), Value::Int(1))]);
+    let two = Mutation::MoveEdge { from: near, to: itself, attributes };
+    let error = ExhaustedError::Sequences { replica: author };
+    refused(&peer, &two, MoveEdgeError::from(error.clone()));
+
+    let greatest =
+        Vertex { vertex_type: "t".into(), name: "n".into(), external_id: None, stamp: limits::STAMP_MAX };
+    peer.state.join(&State::assemble(
+        [(dot(7, 1), Record::Vertex(greatest))],
+        [dot(7, 1)].into_iter().collect(),
+    ));
+    refused(&peer, &child(ROOT, "x"), AddVertexError::from(error));
+}
+
 /// An unset makes no record: it needs no sequence and no stamp, and is refused for the want of neither.
 /// [spec: MUT-0.3] [spec: MUT-0.2] [spec: MUT-3.5]
 #[test]

@@ -1,7 +1,7 @@
 //! The conformance corpus, by the program. `[spec: ORACLE-4]`
 //!
 //! Twice: the program passes it as an adapter, as any implementation does; and each case is made anew, on the core and on the
-//! program side by side, where after every step everything that can be asked of every replica is asked of both.
+//! program side by side, where after every step everything that can be asked of what it may have changed is asked of both.
 
 mod expected;
 mod script;

@@ -11,8 +11,9 @@ use serde_json::json;
 
 const AFTER: &str = "\
 First the program is run as an adapter, as `dsr conform run` does. Then each case is made anew: its steps are carried out on \
-the core and on the program; after every step all that can be asked of every replica is asked of both, and every expectation of \
-the case is filled from the program's replies and compared with what the file says.
+the core and on the program; after every step all that can be asked of the replicas that it may have changed, and in the \
+end of all, is asked of both, and every expectation of the case is filled from the program's replies and compared with \
+what the file says.
 
 Exit status: 0 agree, 1 disagree, 3 the program cannot be asked";
 

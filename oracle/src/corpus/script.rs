@@ -151,7 +151,7 @@ fn line(id: u64, command: Command) -> String {
 
 impl Script {
     /// Carries the case out on the core, and writes down what is asked, from this number on. After every step all that can
-    /// be asked of every replica is asked.
+    /// be asked of the replicas that it may have changed is asked, and in the end of all.
     pub(super) fn of(case: &Case, id: u64) -> Self {
         let mut maker = Maker {
             core: Core::default(),
@@ -308,8 +308,9 @@ impl<'c> Maker<'c> {
         }
     }
 
-    /// All that can be asked of every replica, as deep as the case goes. The core, whose answers are a function of a
-    /// replica's state and of what vertices are called, is asked again where either may have changed.
+    /// All that can be asked, as deep as the case goes: of each replica that may show something else since it was asked
+    /// last, and at the end of every one, so that nobody changes unasked. What is answered is a function of a replica's
+    /// state and of what vertices are called.
     fn look(&mut self, case: &'c Case, step: &Step) {
         match step {
             Step::Deliver { replica, .. } | Step::Restart { replica, .. } => {
@@ -318,7 +319,11 @@ impl<'c> Maker<'c> {
             Step::Mutate { .. } | Step::ExpectRefused { .. } => self.seen.clear(),
             _ => {}
         }
+        let is_last = self.step == case.steps.len();
         for replica in &case.replicas {
+            if !is_last && self.seen.contains_key(replica.as_str()) {
+                continue;
+            }
             let read = || Read { replica: replica.clone() };
             let mut commands = vec![Command::Read(read())];
             if case.profile >= Profile::Causal {
