@@ -638,10 +638,8 @@ fn regress_all_dots_of_a_move_are_counted_before_its_edge_is_judged() {
 
     let greatest =
         Vertex { vertex_type: "t".into(), name: "n".into(), external_id: None, stamp: limits::STAMP_MAX };
-    peer.state.join(&State::assemble(
-        [(dot(7, 1), Record::Vertex(greatest))],
-        [dot(7, 1)].into_iter().collect(),
-    ));
+    peer.state
+        .join(&State::assemble([(dot(7, 1), Record::Vertex(greatest))], [dot(7, 1)].into_iter().collect()));
     refused(&peer, &child(ROOT, "x"), AddVertexError::from(error));
 }
 

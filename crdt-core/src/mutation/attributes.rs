@@ -61,6 +61,8 @@ impl Draft {
 
     /// Files the writes of a new element.
     pub(super) fn write_all(&mut self, target: Dot, attributes: &AttributeMap) {
-        attributes.iter().for_each(|(name, value)| self.write(target, name, value));
+        for (name, value) in attributes {
+            self.write(target, name, value);
+        }
     }
 }

@@ -189,7 +189,8 @@ impl Draft {
     /// `[spec: ID-3]` `[spec: STAMP-1]` `[spec: MUT-0.3]`
     fn new(ground: &impl Ground, author: Author, records: usize) -> Result<Self, ExhaustedError> {
         let next = ground.next_dot(author.replica);
-        let left = next.map_or(0, |next| limits::SEQUENCE_MAX.saturating_add(1).saturating_sub(next.sequence));
+        let left =
+            next.map_or(0, |next| limits::SEQUENCE_MAX.saturating_add(1).saturating_sub(next.sequence));
         let Some(next) = next.filter(|_| records as u64 <= left) else {
             return Err(ExhaustedError::Sequences { replica: author.replica });
         };
