@@ -8,7 +8,7 @@ use dsr_core::{
     AttributeMap, AttributeUpdates, Delta, EdgeKey, ElementId, Mutation, MutationKind, NewVertex, Replica,
     ReplicaId, Value, VertexId, VertexLink, view,
 };
-use dsr_testkit::{Step, candidates, dictionary, history};
+use dsr_testkit::{Step, attempt, candidates, dictionary, history};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use replica_support::Pair;
@@ -36,6 +36,22 @@ impl Pairs {
     fn step(&mut self, step: &Step) {
         let count = self.pairs.len();
         match *step {
+            Step::Attempt { replica, kind, choice } => {
+                let pair = &self.pairs[replica % count];
+                let shown = view(&pair.state, &pair.dictionary);
+                if let Some(mutation) = attempt(&shown, kind, choice) {
+                    self.mutate(replica % count, &mutation);
+                }
+            }
+            Step::Try { replica, ref mutation } => {
+                self.mutate(replica % count, mutation);
+            }
+            Step::Group { ref deltas, to } => {
+                let sent = deltas.iter().filter_map(|delta| self.sent.get(delta % self.sent.len().max(1)));
+                let all = sent.fold(Delta::new(), |all, delta| all.joined(delta));
+                self.pairs[to % count].apply(&all);
+            }
+            Step::Restart { replica, keeps } => self.pairs[replica % count].restart(keeps),
             Step::Mutate { replica, kind, choice } => {
                 let pair = &self.pairs[replica % count];
                 let all = candidates(&view(&pair.state, &pair.dictionary), kind);
@@ -81,7 +97,7 @@ proptest! {
 
     /// `[spec: REPLICA-1]` `[spec: EVENT-1]` `[spec: EVENT-2]` `[spec: EVENT-3]` `[spec: EVENT-4]`
     #[test]
-    fn differential_histories(count in 1..=4_usize, steps in vec(history::step(4), 0..60)) {
+    fn differential_histories(count in 1..=4_usize, steps in vec(history::any_step(4), 0..60)) {
         let mut pairs = Pairs::new(count);
         for step in &steps {
             pairs.step(step);

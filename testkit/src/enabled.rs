@@ -46,6 +46,13 @@ pub fn pick(view: &View<'_>, author: Author, kind: MutationKind, choice: usize) 
     candidates.into_iter().find(|mutation| mutation.delta(view, author).is_ok())
 }
 
+/// The `choice`-th candidate of a kind, allowed or not; `None` if there is none.
+pub fn attempt(view: &View<'_>, kind: MutationKind, choice: usize) -> Option<Mutation> {
+    let mut candidates = candidates(view, kind);
+    let at = choice % candidates.len().max(1);
+    (at < candidates.len()).then(|| candidates.swap_remove(at))
+}
+
 fn level(number: i32) -> AttributeMap {
     AttributeMap::from([("level".into(), number.into())])
 }

@@ -1,6 +1,6 @@
 //! Histories: what replicas and network do, step by step, as data that shrinks.
 
-use dsr_core::MutationKind;
+use dsr_core::{Mutation, MutationKind};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -16,6 +16,22 @@ pub enum Step {
         /// Which of those enabled.
         choice: usize,
     },
+    /// A replica tries a mutation of what is there, allowed or not.
+    Attempt {
+        /// Which replica.
+        replica: usize,
+        /// By which of the six mutations.
+        kind: MutationKind,
+        /// Which of all candidates.
+        choice: usize,
+    },
+    /// A replica tries a mutation with whatever arguments; most are refused.
+    Try {
+        /// Which replica.
+        replica: usize,
+        /// What it tries.
+        mutation: Box<Mutation>,
+    },
     /// A replica gets one of the deltas sent so far: late, early, or again.
     Deliver {
         /// Which delta.
@@ -29,6 +45,20 @@ pub enum Step {
         from: usize,
         /// Whose digest it was.
         to: usize,
+    },
+    /// A replica gets several of the deltas sent so far, joined into one.
+    Group {
+        /// Which deltas.
+        deltas: Vec<usize>,
+        /// Which replica.
+        to: usize,
+    },
+    /// A replica stops and goes on as its next incarnation. `[spec: CRASH-2]`
+    Restart {
+        /// Which replica.
+        replica: usize,
+        /// Whether with its state; else with nothing.
+        keeps: bool,
     },
 }
 
@@ -50,6 +80,13 @@ pub fn step(replicas: usize) -> impl Strategy<Value = Step> {
         5 => (0..1000_usize, 0..replicas).prop_map(|(delta, to)| Step::Deliver { delta, to }),
         1 => (0..replicas, 0..replicas).prop_map(|(from, to)| Step::Resynchronise { from, to }),
     ]
+}
+
+/// The same, and now and then deltas that arrive as one, and a restart.
+pub fn any_step(replicas: usize) -> impl Strategy<Value = Step> {
+    let group = (vec(0..1000_usize, 1..4), 0..replicas).prop_map(|(deltas, to)| Step::Group { deltas, to });
+    let restart = (0..replicas, any::<bool>()).prop_map(|(replica, keeps)| Step::Restart { replica, keeps });
+    prop_oneof![20 => step(replicas), 2 => group, 1 => restart]
 }
 
 /// Histories of two to `replicas_max` replicas.

@@ -4,9 +4,10 @@
 //! |---|---|
 //! | [`atoms`] | strategies for dots, contexts, names and values |
 //! | [`universe`] | well-formed states of hostile shape, alone or several over one set of records |
-//! | [`candidates`], [`pick`] | concrete mutations in a view |
+//! | [`candidates`], [`pick`], [`attempt`] | concrete mutations in a view |
 //! | [`history`], [`World`] | replicas that mutate, deliver twice and out of order, and resynchronise |
 //! | [`state`] | a state from a few lines of text |
+//! | `bytes` (feature `arbitrary`) | universes, fates and steps from bytes, for fuzzers |
 //!
 //! ```
 //! use dsr_core::{Dictionary, view};
@@ -25,13 +26,15 @@
 //! ```
 
 pub mod atoms;
+#[cfg(feature = "arbitrary")]
+pub mod bytes;
 mod enabled;
 pub mod history;
 mod language;
 pub mod universe;
 mod world;
 
-pub use enabled::{NAMES, candidates, dictionary, pick};
+pub use enabled::{NAMES, attempt, candidates, dictionary, pick};
 pub use history::{History, Step, histories};
 pub use language::{parse_state, state};
 pub use universe::{Anchors, Fate, Universe, encoded_states, fates, states, universes};

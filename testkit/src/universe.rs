@@ -10,7 +10,6 @@ use dsr_core::{
 };
 use proptest::collection::{btree_map, vec};
 use proptest::prelude::*;
-use proptest::sample::Index;
 use std::collections::BTreeMap;
 
 /// What a state knows of a dot, in the order in which it may change.
@@ -99,21 +98,23 @@ impl Universe {
 
 /// What a record is made from once all dots are known.
 #[derive(Clone, Debug)]
-struct Seed {
-    kind: u8,
-    ends: (Index, Index),
-    label: Name,
-    names: (Name, Name),
-    value: Value,
-    stamp: u64,
-    external_id: Option<u64>,
-    timestamp_ns: u64,
+pub(crate) struct Seed {
+    /// 0 a vertex, 1 an edge, else a write.
+    pub(crate) kind: u8,
+    /// What it hangs from, by [`pick`].
+    pub(crate) ends: (u16, u16),
+    pub(crate) label: Name,
+    pub(crate) names: (Name, Name),
+    pub(crate) value: Value,
+    pub(crate) stamp: u64,
+    pub(crate) external_id: Option<u64>,
+    pub(crate) timestamp_ns: u64,
 }
 
 fn seed() -> impl Strategy<Value = Seed> {
     (
         prop_oneof![3 => Just(0_u8), 5 => Just(1), 2 => Just(2)],
-        any::<(Index, Index)>(),
+        any::<(u16, u16)>(),
         atoms::label(),
         (atoms::name(), atoms::name()),
         prop_oneof![3 => (0..3_i32).prop_map(Value::Int), 1 => atoms::value()],
@@ -166,7 +167,7 @@ fn fate() -> impl Strategy<Value = Fate> {
 /// A dot that no state over any universe has seen.
 const NOWHERE: Dot = Dot::new(ReplicaId::agent(4), 1);
 
-fn grow(seeds: &BTreeMap<Dot, Seed>, anchors: Anchors) -> Universe {
+pub(crate) fn grow(seeds: &BTreeMap<Dot, Seed>, anchors: Anchors) -> Universe {
     let of_kind = |fits: fn(u8) -> bool| -> Vec<Dot> {
         let fitting = seeds.iter().filter(|(_, seed)| anchors == Anchors::Any || fits(seed.kind));
         fitting.map(|(&dot, _)| dot).collect()
@@ -178,9 +179,9 @@ fn grow(seeds: &BTreeMap<Dot, Seed>, anchors: Anchors) -> Universe {
 
 /// One of the dots, often one of the first two so that claims compete; the root; or rarely a dot that never
 /// comes; never `own`.
-fn pick(index: Index, dots: &[Dot], own: Dot) -> Dot {
+fn pick(choice: u16, dots: &[Dot], own: Dot) -> Dot {
     let others: Vec<Dot> = dots.iter().copied().filter(|&dot| dot != own).collect();
-    let choice = index.index(1 << 16);
+    let choice = usize::from(choice);
     match choice % 16 {
         0 => NOWHERE,
         1..=3 => VertexId::ROOT.0,

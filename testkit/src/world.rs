@@ -17,6 +17,8 @@ pub struct World {
     pub sent: Vec<Delta>,
     /// Per replica: which of the deltas it has got, its own included, directly or by resynchronisation.
     pub known: Vec<BTreeSet<usize>>,
+    /// How often each replica has restarted.
+    pub incarnations: Vec<u32>,
 }
 
 impl World {
@@ -27,12 +29,13 @@ impl World {
             states: vec![State::new(); replicas],
             sent: Vec::new(),
             known: vec![BTreeSet::new(); replicas],
+            incarnations: vec![0; replicas],
         }
     }
 
     /// The author of a replica, by its number from 0; its clock shows the greatest stamp that it holds.
     pub fn author(&self, replica: usize) -> Author {
-        author(replica, &self.states[replica])
+        author(replica, self.incarnations[replica], &self.states[replica])
     }
 
     /// Lets a replica mutate, and sends the delta to nobody yet.
@@ -58,6 +61,22 @@ impl World {
         self.known[to].extend(known);
     }
 
+    /// Delivers some of the deltas sent as one.
+    pub fn deliver_together(&mut self, deltas: &[usize], to: usize) {
+        let all = deltas.iter().fold(Delta::new(), |all, &delta| all.joined(&self.sent[delta]));
+        self.states[to].join(&all);
+        self.known[to].extend(deltas);
+    }
+
+    /// Lets a replica go on as its next incarnation, with its state or with nothing. `[spec: CRASH-2]`
+    pub fn restart(&mut self, replica: usize, keeps: bool) {
+        self.incarnations[replica] += 1;
+        if !keeps {
+            self.states[replica] = State::new();
+            self.known[replica].clear();
+        }
+    }
+
     /// Takes one step of a history; what is not possible now does nothing.
     pub fn step(&mut self, step: &Step) {
         let count = self.states.len();
@@ -75,7 +94,24 @@ impl World {
                     self.deliver(delta % self.sent.len(), to % count);
                 }
             }
+            Step::Attempt { replica, kind, choice } => {
+                let replica = replica % count;
+                let here = view(&self.states[replica], &self.dictionary);
+                if let Some(mutation) = crate::attempt(&here, kind, choice) {
+                    let _ = self.mutate(replica, &mutation);
+                }
+            }
+            Step::Try { replica, ref mutation } => {
+                let _ = self.mutate(replica % count, mutation);
+            }
             Step::Resynchronise { from, to } => self.resynchronise(from % count, to % count),
+            Step::Group { ref deltas, to } => {
+                if !self.sent.is_empty() {
+                    let deltas: Vec<usize> = deltas.iter().map(|delta| delta % self.sent.len()).collect();
+                    self.deliver_together(&deltas, to % count);
+                }
+            }
+            Step::Restart { replica, keeps } => self.restart(replica % count, keeps),
         }
     }
 
@@ -95,8 +131,8 @@ impl World {
     }
 }
 
-/// The author of a replica, by its number from 0, with its state for a clock.
-pub fn author(replica: usize, state: &State) -> Author {
+/// The author of a replica, by its number and its restarts, both from 0, with its state for a clock.
+pub fn author(replica: usize, incarnation: u32, state: &State) -> Author {
     let agent = u32::try_from(replica + 1).unwrap_or(u32::MAX);
-    Author { replica: ReplicaId::agent(agent), timestamp_ns: state.greatest_stamp() }
+    Author { replica: ReplicaId { agent, incarnation }, timestamp_ns: state.greatest_stamp() }
 }

@@ -78,6 +78,17 @@ impl Pair {
         pair
     }
 
+    /// Goes on as the next incarnation, with the state or with nothing.
+    pub(crate) fn restart(&mut self, keeps: bool) {
+        let ReplicaId { agent, incarnation } = self.replica.id();
+        let id = ReplicaId { agent, incarnation: incarnation + 1 };
+        self.replica = Replica::new(id, self.dictionary.clone());
+        let state = std::mem::take(&mut self.state);
+        if keeps {
+            self.apply(&state);
+        }
+    }
+
     /// Joins a delta on both sides.
     #[track_caller]
     pub(crate) fn apply(&mut self, delta: &Delta) -> usize {
