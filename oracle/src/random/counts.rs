@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 /// comes after another condition that is then broken), every repair, and every odd thing that a network or a stranger can do.
 pub const EXPECTED: [&[&str]; 4] = [&REFUSALS, &REPAIRS, &VALUES, &ODDITIES];
 
-const REFUSALS: [&str; 64] = [
+const REFUSALS: [&str; 66] = [
     "refused: add_vertex Attribute.NameLength",
     "refused: add_vertex Attribute.TooMany",
     "refused: add_vertex Attribute.Undeclared",
@@ -59,8 +59,10 @@ const REFUSALS: [&str; 64] = [
     "refused: move_edge Attribute.Undeclared",
     "refused: move_edge Attribute.WrongType",
     "refused: move_edge Edge.Cycle",
+    "refused: move_edge Edge.FunctionalTaken",
     "refused: move_edge Edge.HasParent",
     "refused: move_edge Edge.IntoRoot",
+    "refused: move_edge Edge.KeyPresent",
     "refused: move_edge Edge.LabelLength",
     "refused: move_edge Edge.ParentOutsideTree",
     "refused: move_edge Edge.SelfLoop",
