@@ -9,7 +9,7 @@ fn ask(criterion: &mut Criterion) {
     for question in questions::all() {
         let mut group = criterion.benchmark_group(question.id);
         group.sample_size(10);
-        for mut side in (question.sides)(&question).unwrap() {
+        for mut side in (question.sides)(&question, &|_| true).unwrap() {
             group.bench_function(side.library, |bencher| {
                 bencher.iter_custom(|operations| {
                     // A round has many operations; what is told is as long as those that were asked for.

@@ -82,14 +82,13 @@ pub fn run(
 ) -> Result<Results> {
     let mut results = Results::default();
     let mut is_any = false;
+    let is_wanted = |library: &str| {
+        library == Dsr::NAME || peers.is_none_or(|peers| peers.iter().any(|peer| peer == library))
+    };
     for question in questions::all().into_iter().filter(|question| is_meant(pattern, question.id)) {
         tell(question.id);
         is_any = true;
-        let mut sides = (question.sides)(&question)?;
-        sides.retain(|side| {
-            side.library == Dsr::NAME
-                || peers.is_none_or(|peers| peers.iter().any(|peer| peer == side.library))
-        });
+        let mut sides = (question.sides)(&question, &is_wanted)?;
         let times = hold(&mut sides, extent.patience(&question))?;
         results.rows.push(Row { question, ratio: ratio(&times), times });
     }

@@ -56,78 +56,91 @@ pub(super) fn questions() -> [Question; 8] {
             id: "update/5MB/unencoded",
             asks: "5,000,000 bytes are set; the delta, if there is one, stays in memory.",
             heavy: true,
-            turns: 2,
+            turns: 20,
             sides: sides!(unencoded; Dsr, Yrs, Loro, AutomergeScene, Crdts, Dson),
         },
         Question {
             id: "update/5MB",
             asks: "5,000,000 bytes are set; the delta is bytes.",
             heavy: true,
-            turns: 2,
+            turns: 4,
             sides: sides!(update; Dsr, Yrs, Loro, AutomergeScene, Crdts, Dson),
         },
         Question {
             id: "apply/5MB",
             asks: "The bytes of such a delta are joined at another replica.",
             heavy: true,
-            turns: 2,
+            turns: 4,
             sides: sides!(apply; Dsr, Yrs, Loro, AutomergeScene, Crdts, Dson),
         },
     ]
 }
 
-/// The values of one question: another one for each write.
-struct Values {
+/// The writes of one question. No value is written where it is already: some libraries would do nothing.
+struct Writes {
     payloads: Vec<Content>,
-    written: f64,
+    made: usize,
 }
 
-impl Values {
+impl Writes {
     fn of(question: &Question) -> Self {
-        let payload = |n| (0..2).map(|seed| Content::payload(n, seed)).collect();
+        // One more than the vertices that they are written to.
+        let payloads = |n| (0..3).map(|seed| Content::payload(n, seed)).collect();
         let payloads = match question.id {
-            id if id.contains("60kB") => payload(LARGE),
-            id if id.contains("5MB") => payload(HUGE),
+            id if id.contains("60kB") => payloads(LARGE),
+            id if id.contains("5MB") => payloads(HUGE),
             _ => Vec::new(),
         };
-        Self { payloads, written: 0.1 }
+        Self { payloads, made: 0 }
     }
 
-    fn next(&mut self, turn: usize) -> Content {
-        self.written += 1.0;
-        let payload = self.payloads.get(turn % self.payloads.len().max(1));
-        payload.cloned().unwrap_or(Content::Double(self.written))
+    /// The next write: payloads go to few vertices, so that histories do not fill the memory.
+    #[allow(clippy::cast_precision_loss, reason = "writes are few")]
+    fn next(&mut self) -> (usize, Content) {
+        self.made += 1;
+        match self.payloads.get(self.made % 3) {
+            Some(payload) => (self.made % 2, payload.clone()),
+            None => (self.made * STRIDE % VERTICES, Content::Double(self.made as f64 + 0.1)),
+        }
     }
 
-    /// The vertices that are written in turn. Of payloads few, so that histories do not fill the memory.
-    fn vertex(&self, turn: usize) -> usize {
-        if self.payloads.is_empty() { turn * STRIDE % VERTICES } else { turn % 2 }
+    fn take(&mut self, turns: usize) -> Vec<(usize, Content)> {
+        (0..turns).map(|_| self.next()).collect()
     }
 }
 
 /// An author, and a reader who follows.
-fn pair<S: Scene>(values: &mut Values) -> Result<(S, S)> {
+fn pair<S: Scene>(writes: &mut Writes) -> Result<(S, S)> {
     let plan = Plan::tree("vertex-", VERTICES, 10);
     let mut author = S::empty(1)?;
     author.populate(&plan)?;
     let mut reader = S::load(2, &author.save()?)?;
     reader.find(&plan)?;
-    let value = values.next(1);
-    reader.apply(&author.set(1, &value)?)?;
-    if reader.read(1)? != Some(value) {
-        return not_the_job(S::NAME, "a value to arrive");
+    // As often as every payload comes to every vertex.
+    for (vertex, value) in writes.take(6) {
+        reader.apply(&author.set(vertex, &value)?)?;
+        check(&reader, vertex, &value)?;
     }
     Ok((author, reader))
 }
 
+fn check<S: Scene>(replica: &S, vertex: usize, value: &Content) -> Result<()> {
+    if replica.read(vertex)?.as_ref() == Some(value) {
+        Ok(())
+    } else {
+        not_the_job(S::NAME, "a value to be set, and to arrive")
+    }
+}
+
 /// An author who sets an attribute.
 pub fn update<S: Scene + 'static>(question: &Question, _: PhantomData<S>) -> Result<Side> {
-    let (mut values, turns) = (Values::of(question), question.turns);
-    let (mut author, _) = pair::<S>(&mut values)?;
+    let (mut writes, turns) = (Writes::of(question), question.turns);
+    let (mut author, _) = pair::<S>(&mut writes)?;
     Ok(Side::of::<S>(move || {
-        let contents: Vec<Content> = (0..turns).map(|turn| values.next(turn)).collect();
+        let writes = writes.take(turns);
         time(turns, |turn| {
-            black_box(author.set(values.vertex(turn), &contents[turn])?);
+            let (vertex, value) = &writes[turn];
+            black_box(author.set(*vertex, value)?);
             Ok(())
         })
     }))
@@ -135,29 +148,30 @@ pub fn update<S: Scene + 'static>(question: &Question, _: PhantomData<S>) -> Res
 
 /// An author who sets an attribute and encodes nothing.
 pub fn unencoded<S: Scene + 'static>(question: &Question, _: PhantomData<S>) -> Result<Side> {
-    let (mut values, turns) = (Values::of(question), question.turns);
-    let (mut author, _) = pair::<S>(&mut values)?;
-    let value = values.next(0);
-    author.set_unencoded(2, &value)?;
-    if author.read(2)? != Some(value) {
-        return not_the_job(S::NAME, "a value to be set");
-    }
+    let (mut writes, turns) = (Writes::of(question), question.turns);
+    let (mut author, _) = pair::<S>(&mut writes)?;
+    let (vertex, value) = writes.next();
+    author.set_unencoded(vertex, &value)?;
+    check(&author, vertex, &value)?;
     Ok(Side::of::<S>(move || {
-        let contents: Vec<Content> = (0..turns).map(|turn| values.next(turn)).collect();
-        time(turns, |turn| author.set_unencoded(values.vertex(turn), &contents[turn]))
+        // Copies of the peers have emptied the caches: the first write fills them.
+        let (vertex, value) = writes.next();
+        author.set_unencoded(vertex, &value)?;
+        let writes = writes.take(turns);
+        time(turns, |turn| {
+            let (vertex, value) = &writes[turn];
+            author.set_unencoded(*vertex, value)
+        })
     }))
 }
 
 /// A reader who follows.
 pub fn apply<S: Scene + 'static>(question: &Question, _: PhantomData<S>) -> Result<Side> {
-    let (mut values, turns) = (Values::of(question), question.turns);
-    let (mut author, mut reader) = pair::<S>(&mut values)?;
+    let (mut writes, turns) = (Writes::of(question), question.turns);
+    let (mut author, mut reader) = pair::<S>(&mut writes)?;
     Ok(Side::of::<S>(move || {
-        let set = |turn| {
-            let value = values.next(turn);
-            author.set(values.vertex(turn), &value)
-        };
-        let messages: Vec<Vec<u8>> = (0..turns).map(set).collect::<Result<_>>()?;
+        let set = |(vertex, value): (usize, Content)| author.set(vertex, &value);
+        let messages: Vec<Vec<u8>> = writes.take(turns).into_iter().map(set).collect::<Result<_>>()?;
         time(turns, |turn| reader.apply(&messages[turn]))
     }))
 }

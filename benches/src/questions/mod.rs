@@ -14,6 +14,9 @@ pub mod reconcile;
 use crate::contest::Side;
 use crate::error::Result;
 
+/// Makes the sides of a question for the libraries that are wanted.
+pub type MakeSides = fn(&Question, &dyn Fn(&str) -> bool) -> Result<Vec<Side>>;
+
 /// A question.
 #[derive(Clone, Copy)]
 pub struct Question {
@@ -25,8 +28,8 @@ pub struct Question {
     pub heavy: bool,
     /// Operations of one round.
     pub turns: usize,
-    /// Makes the sides, ours first.
-    pub sides: fn(&Question) -> Result<Vec<Side>>,
+    /// Its sides, ours first.
+    pub sides: MakeSides,
 }
 
 impl std::fmt::Debug for Question {
@@ -38,8 +41,15 @@ impl std::fmt::Debug for Question {
 /// The sides of some libraries by one generic function.
 macro_rules! sides {
     ($side:expr; $($library:ident),+ $(,)?) => {{
-        fn all(question: &$crate::questions::Question) -> $crate::error::Result<Vec<$crate::contest::Side>> {
-            Ok(vec![$($side(question, std::marker::PhantomData::<$crate::libraries::$library>)?),+])
+        fn all(
+            question: &$crate::questions::Question,
+            is_wanted: &dyn Fn(&str) -> bool,
+        ) -> $crate::error::Result<Vec<$crate::contest::Side>> {
+            let mut sides = Vec::new();
+            $(if is_wanted(<$crate::libraries::$library as $crate::scene::Scene>::NAME) {
+                sides.push($side(question, std::marker::PhantomData::<$crate::libraries::$library>)?);
+            })+
+            Ok(sides)
         }
         all
     }};
