@@ -11,6 +11,7 @@ use crate::status::Status;
 use dsr_core::MutationKind;
 use dsr_model::progress::Limits;
 use dsr_model::suite;
+use dsr_model::twin::Core;
 use dsr_model::verdict::{RunReport, Verdict};
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -68,6 +69,9 @@ pub(crate) struct Arguments {
     /// Whose semantics is checked
     #[arg(long, value_enum, default_value_t = Whose::Checked)]
     semantics: Whose,
+    /// Which core is asked
+    #[arg(long, value_enum, default_value_t = CoreName::Reference)]
+    core: CoreName,
     /// Which implementation of the published semantics; `upstream` if not said
     #[arg(long, value_enum)]
     variant: Option<VariantName>,
@@ -135,6 +139,27 @@ pub(crate) enum Whose {
     Checked,
     /// The published one
     Published,
+}
+
+/// A core of the checked semantics.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
+pub(crate) enum CoreName {
+    /// The readable reference
+    Reference,
+    /// The fast replica alone
+    Fast,
+    /// The fast replica beside the reference: all that can be seen of both is compared
+    Both,
+}
+
+impl CoreName {
+    fn core(self) -> Core {
+        match self {
+            Self::Reference => Core::Reference,
+            Self::Fast => Core::Fast,
+            Self::Both => Core::Both,
+        }
+    }
 }
 
 /// An implementation of the published semantics.

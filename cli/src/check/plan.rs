@@ -10,6 +10,7 @@ use dsr_model::published::suite as published_suite;
 use dsr_model::published::{Stamps, Variant, Workers};
 use dsr_model::scenario::{Scenario, shipped};
 use dsr_model::suite::{FLAT_FOCUS, Subject};
+use dsr_model::twin::OnCore;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -85,13 +86,14 @@ fn suite(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
     let scene = Scene::read(FLAT, &dictionary, Strictness::Strict).map_err(|error| error.to_string())?.scene;
     let subject = Subject { state: &scene.state, dictionary: &dictionary, names: &FLAT_FOCUS };
     let mut jobs: Vec<Box<dyn Job>> = Vec::new();
+    let core = arguments.core.core();
     if wanted(Layer::L2) {
-        jobs.extend(subject.schedules().map_err(|error| error.to_string())?);
+        jobs.extend(subject.schedules(core).map_err(|error| error.to_string())?);
     }
     if wanted(Layer::L1) {
         let histories = if arguments.deep { subject.deep_histories() } else { subject.default_histories() };
         for run in histories.map_err(|error| error.to_string())? {
-            jobs.push(Box::new(run));
+            jobs.push(run.on(core));
         }
     }
     // Never by default: a sample is bounded, and would make the whole suite so.
@@ -99,7 +101,7 @@ fn suite(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
         let (walks, deep) = (if arguments.deep { WALKS_DEEP } else { WALKS }, arguments.deep);
         let runs = subject.walks(arguments.seed, arguments.walks.unwrap_or(walks), deep);
         for run in runs.map_err(|error| error.to_string())? {
-            jobs.push(Box::new(run));
+            jobs.push(run.on(core));
         }
     }
     if wanted(Layer::L0) {
@@ -108,7 +110,7 @@ fn suite(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
         let semantics = semantics.map_err(|error| error.to_string())?.semantics;
         let records = if arguments.deep { vec![5] } else { vec![4, 3] };
         for records in records {
-            jobs.push(Box::new(AlgebraRun { semantics: Arc::clone(&semantics), records }));
+            jobs.push(AlgebraRun { semantics: Arc::clone(&semantics), records }.on(core));
         }
     }
     if wanted(Layer::Scenario) {
@@ -156,7 +158,7 @@ fn of_file(arguments: &Arguments, file: &str) -> Result<Box<dyn Job>, String> {
     let mut run =
         subject.histories(names.len(), bound, &kinds).map_err(|error| format!("{file}: {error}"))?;
     run.name = format!("{file} [{}]: {}", names.join(", "), run.name);
-    Ok(Box::new(run))
+    Ok(run.on(arguments.core.core()))
 }
 
 fn is_scenario(file: &str) -> bool {
