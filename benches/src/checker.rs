@@ -7,6 +7,7 @@ use dsr_core::{Dictionary, MutationKind};
 use dsr_model::histories::Bound;
 use dsr_model::job::Job;
 use dsr_model::progress::{Limits, Progress};
+use dsr_model::schedules::{ScheduleBound, ScheduleRun};
 use dsr_model::suite::{FLAT_FOCUS, Subject};
 use dsr_model::verdict::{RunReport, Verdict};
 use std::sync::Arc;
@@ -31,9 +32,16 @@ pub fn paces() -> Result<Vec<Pace>> {
     let mut histories = subject.histories(4, bound, &MutationKind::ALL).map_err(failed)?;
     histories.second_engine = false;
     let mut paces = vec![pace(&histories)?];
-    let schedules = subject.schedules().map_err(failed)?;
-    let first = schedules.first().ok_or_else(|| BenchError::Checker("there are no schedules".into()))?;
-    paces.push(pace(&**first)?);
+    let once = Bound { replicas: 2, mutations: 1 };
+    let focused = subject.histories(2, once, &MutationKind::ALL).map_err(failed)?;
+    let schedules = ScheduleRun {
+        name: focused.name,
+        semantics: focused.semantics,
+        focus: focused.focus,
+        bound: ScheduleBound { replicas: 2, readers: 0, mutations: 1, restarts: 1, resynchronisations: 1 },
+        second_engine: false,
+    };
+    paces.push(pace(&schedules)?);
     Ok(paces)
 }
 

@@ -16,7 +16,7 @@ pub enum Extent {
     Once,
     /// In under three minutes; growth to 10⁵ vertices.
     Quick,
-    /// In a quarter of an hour; growth to 10⁶ vertices.
+    /// In five minutes or so of the processor; growth to 10⁶ vertices.
     Full,
 }
 
@@ -24,10 +24,10 @@ impl Extent {
     fn patience(self, question: &Question) -> Patience {
         match (self, question.heavy) {
             (Self::Once, _) => Patience { seconds: 0.0, rounds_min: 1, rounds_max: 1 },
-            (Self::Quick, false) => Patience { seconds: 1.2, rounds_min: 7, rounds_max: 60 },
-            (Self::Quick, true) => Patience { seconds: 1.5, rounds_min: 3, rounds_max: 40 },
-            (Self::Full, false) => Patience { seconds: 8.0, rounds_min: 15, rounds_max: 300 },
-            (Self::Full, true) => Patience { seconds: 15.0, rounds_min: 7, rounds_max: 100 },
+            (Self::Quick, false) => Patience { seconds: 0.7, rounds_min: 7, rounds_max: 60 },
+            (Self::Quick, true) => Patience { seconds: 1.0, rounds_min: 3, rounds_max: 40 },
+            (Self::Full, false) => Patience { seconds: 3.0, rounds_min: 15, rounds_max: 200 },
+            (Self::Full, true) => Patience { seconds: 5.0, rounds_min: 7, rounds_max: 100 },
         }
     }
 
