@@ -17,6 +17,9 @@ const COLOURS: [RGBColor; 9] = [
     RGBColor(23, 190, 207),
 ];
 
+const WIDTH: u32 = 900;
+const LEGEND_WIDTH: u32 = 180;
+
 /// Draws ours, and all libraries at one delta, into a folder; the files.
 pub fn plots(curves: &[Curve], folder: &Path) -> Result<Vec<PathBuf>> {
     if curves.is_empty() {
@@ -44,9 +47,10 @@ fn plot(path: &Path, title: &str, curves: &[(&str, &Curve)]) -> Result<()> {
     let largest = points().map(|(n, _)| n).max().unwrap_or(1000) as f64;
     let least = points().map(|(_, ns)| ns).fold(f64::INFINITY, f64::min);
     let greatest = points().map(|(_, ns)| ns).fold(1.0, f64::max);
-    let area = SVGBackend::new(path, (900, 520)).into_drawing_area();
+    let area = SVGBackend::new(path, (WIDTH, 520)).into_drawing_area();
     area.fill(&WHITE).map_err(|error| failed(&error))?;
-    let mut chart = ChartBuilder::on(&area)
+    let (graph, legend) = area.split_horizontally(WIDTH - LEGEND_WIDTH);
+    let mut chart = ChartBuilder::on(&graph)
         .caption(title, ("sans-serif", 20))
         .margin(16)
         .x_label_area_size(44)
@@ -62,21 +66,16 @@ fn plot(path: &Path, title: &str, curves: &[(&str, &Curve)]) -> Result<()> {
         .y_label_formatter(&|ns| format!("{ns:.0}"))
         .draw()
         .map_err(|error| failed(&error))?;
-    for ((name, curve), colour) in curves.iter().zip(COLOURS.into_iter().cycle()) {
+    for (((name, curve), colour), row) in curves.iter().zip(COLOURS.into_iter().cycle()).zip(0..) {
         let points: Vec<(f64, f64)> = curve.points.iter().map(|&(n, ns)| (n as f64, ns)).collect();
-        let label = format!("{name}  n^{:.2}", curve.exponent());
         chart
             .draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(2)).point_size(3))
-            .map_err(|error| failed(&error))?
-            .label(label)
-            .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(2)));
+            .map_err(|error| failed(&error))?;
+        let (y, label) = (60 + 24 * row, format!("{name}  n^{:.2}", curve.exponent()));
+        let line = PathElement::new([(0, y), (18, y)], colour.stroke_width(2));
+        legend.draw(&line).map_err(|error| failed(&error))?;
+        let text = Text::new(label, (26, y - 7), ("sans-serif", 14));
+        legend.draw(&text).map_err(|error| failed(&error))?;
     }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperLeft)
-        .background_style(WHITE.mix(0.8))
-        .border_style(BLACK.mix(0.3))
-        .draw()
-        .map_err(|error| failed(&error))?;
     area.present().map_err(|error| failed(&error))
 }
