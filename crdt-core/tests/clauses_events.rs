@@ -34,8 +34,8 @@ fn check(before: &State, delta: &State, expected: &[Change]) {
     );
 }
 
-fn without(before: &State, dead: &[Dot]) -> State {
-    let _ = before;
+/// Their deaths, and nothing else.
+fn deaths(dead: &[Dot]) -> State {
     State::assemble([], dead.iter().copied().collect())
 }
 
@@ -69,7 +69,7 @@ fn oracle_a_vertex_comes_and_goes() {
     let after = before.joined(&whole);
     check(
         &after,
-        &without(&after, &[cup.0]),
+        &deaths(&[cup.0]),
         &[
             Change::VertexRemoved { vertex: cup, name: "cup".into() },
             Change::EdgeHidden { edge: edge(2, 2), key },
@@ -85,7 +85,7 @@ fn oracle_two_moves_of_one_robot() {
     let before = state(ROOM).joined(&state("r1.6 vertex room hall @4\nr1.7 edge root -RT-> r1.6 @4"));
     let (robot, kitchen, hall) = (VertexId(dot(1, 3)), VertexId(dot(1, 1)), VertexId(dot(1, 6)));
     let (mine, theirs) = ("r2.1 edge r1.3 -in-> r1.6 @5", "r3.1 edge r1.3 -in-> r1.1 @6");
-    let dead = without(&before, &[dot(1, 5)]);
+    let dead = deaths(&[dot(1, 5)]);
     let (mine, theirs) = (state(mine).joined(&dead), state(theirs).joined(&dead));
     let moved = Change::EdgeShown { edge: edge(2, 1), key: EdgeKey::new(robot, "in", hall) };
     let left = Change::EdgeHidden { edge: edge(1, 5), key: EdgeKey::new(robot, "in", kitchen) };

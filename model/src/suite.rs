@@ -80,6 +80,21 @@ impl Subject<'_> {
         Ok(runs)
     }
 
+    /// Small runs of L1, each of which asks everything of both cores and costs little. `[spec: CHECK-15]`
+    pub fn compared_histories(&self) -> Result<Vec<HistoryRun<Checked>>, FocusError> {
+        let mut runs = vec![
+            self.histories(3, Bound { replicas: 2, mutations: 1 }, &K::ALL)?,
+            self.histories(2, Bound { replicas: 3, mutations: 1 }, &K::ALL)?,
+        ];
+        for pair in pairs() {
+            runs.push(self.at_last(2, Bound { replicas: 2, mutations: 2 }, &pair)?);
+        }
+        for run in &mut runs {
+            run.name.push_str(", both cores");
+        }
+        Ok(runs)
+    }
+
     /// The runs of L2: all six kinds, and four concrete mutations twice each. `[spec: CHECK-6]`
     pub fn schedules(&self, core: Core) -> Result<Vec<Box<dyn Job>>, FocusError> {
         let all = self.histories(SCHEDULE_FOCUS, Bound { replicas: 2, mutations: 1 }, &MutationKind::ALL)?;

@@ -12,6 +12,7 @@ pub trait Fast: Clone + Debug + Send + Sync + 'static {
     fn start(dictionary: &Dictionary) -> Self;
 
     /// The same graph, whose mutations are those of another author.
+    #[must_use]
     fn for_author(&self, id: ReplicaId) -> Self;
 
     /// What it holds and shows.

@@ -41,8 +41,8 @@ impl<F: Fast> Held<F> {
         self.fault.as_ref().map_or(Ok(()), |fault| Err(Breach::clone(fault)))
     }
 
-    fn identity(&self) -> (&State, &Option<Arc<Breach>>) {
-        (&self.state, &self.fault)
+    fn identity(&self) -> (&State, Option<&Breach>) {
+        (&self.state, self.fault.as_deref())
     }
 }
 

@@ -12,21 +12,22 @@
 //! | state and changes told | of every delivery that is carried out |
 //! | a snapshot | after its replica has gone on |
 
+mod algebra;
 mod compare;
 mod core;
 mod fast;
 mod held;
+mod step;
 
 pub use core::{Core, OnCore};
 pub use fast::Fast;
 pub use held::Held;
 
-use crate::algebra::{Algebra, Family, core_universe};
-use crate::checked::{Act, Checked, check_delivery, check_step, judge_state, looks, replica_id};
+use crate::checked::{Act, Checked, check_delivery, check_step, judge_state, looks};
 use crate::graph::Graph;
 use crate::semantics::{Breach, Clause, Competition, Judged, Semantics, Step, WHOLE};
 use crate::why::{Claim, Standing, Target};
-use dsr_core::{Author, Delta, Replica, State, View, view};
+use dsr_core::{Delta, Replica, State, View, view};
 use std::sync::Arc;
 
 /// The name in reports and traces of the fast replica alone.
@@ -47,6 +48,8 @@ pub struct Twin<F = Replica> {
     name: &'static str,
     core: Checked,
     compares: bool,
+    /// A replica that has seen nothing.
+    blank: F,
     initial: Held<F>,
 }
 
@@ -69,48 +72,23 @@ impl<F: Fast> Twin<F> {
     }
 
     fn new(name: &'static str, core: Checked, compares: bool) -> Self {
-        let start = Held::alone(F::start(&core.dictionary));
-        let twin = Self { name, core, compares, initial: start };
-        Self { initial: twin.from(&twin.core.initial), ..twin }
+        let blank = F::start(&core.dictionary);
+        let twin = Self { name, core, compares, initial: Held::alone(blank.clone()), blank };
+        Self { initial: twin.replica_of(&twin.core.initial), ..twin }
     }
 
     /// A replica that has joined a whole state.
-    fn from(&self, state: &State) -> Held<F> {
-        self.join(&Held::alone(F::start(&self.core.dictionary)), state)
+    fn replica_of(&self, state: &State) -> Held<F> {
+        self.join(&Held::alone(self.blank.clone()), state)
     }
 
     /// A state that no replica comes to, such as one that is not closed.
     fn without_replica(&self, state: State) -> Held<F> {
-        Held { state, ..Held::alone(F::start(&self.core.dictionary)) }
+        Held { replica: self.blank.clone(), state, fault: None, told: None }
     }
 
     fn view<'s>(&'s self, held: &'s Held<F>) -> View<'s> {
         view(&held.state, &self.core.dictionary)
-    }
-
-    /// A step beside the reference. Where both refuse it alike there is none; where they differ, the state after
-    /// it says how.
-    fn step(&self, held: &Held<F>, before: &View<'_>, replica: usize, act: &Act) -> Option<Step<Self>> {
-        let author = Author::new(replica_id(replica));
-        let expected = act.0.delta(before, author);
-        let mut replica = held.replica.for_author(author.replica);
-        let found = replica.mutate(&act.0);
-        let mut fault = compare::made(&found, &expected).err();
-        if fault.is_none() && found.is_err() {
-            fault = compare::shown("REPLICA-1", &replica, before).err();
-            fault.as_ref()?;
-        }
-        let told = found.as_ref().map(|made| Arc::new(made.changes.clone())).ok();
-        let delta = expected.ok().or_else(|| Some(found.ok()?.delta)).unwrap_or_default();
-        let fault = held.fault.clone().or_else(|| fault.map(Arc::new));
-        let after = Held { replica, state: held.state.joined(&delta), fault, told };
-        Some(Step { delta, after })
-    }
-
-    fn step_alone(&self, held: &Held<F>, replica: usize, act: &Act) -> Option<Step<Self>> {
-        let mut replica = held.replica.for_author(replica_id(replica));
-        let made = replica.mutate(&act.0).ok()?;
-        Some(Step { delta: made.delta, after: Held::alone(replica) })
     }
 }
 
@@ -141,9 +119,9 @@ impl<F: Fast> Semantics for Twin<F> {
 
     fn mutate(&self, held: &Held<F>, replica: usize, act: &Act) -> Option<Step<Self>> {
         if self.compares {
-            self.step(held, &self.view(held), replica, act)
+            Self::step(held, &self.view(held), replica, act)
         } else {
-            self.step_alone(held, replica, act)
+            Self::step_alone(held, replica, act)
         }
     }
 
@@ -155,8 +133,8 @@ impl<F: Fast> Semantics for Twin<F> {
         };
         let step = |act: Act| {
             let step = match &before {
-                Some(before) => self.step(held, before, replica, &act),
-                None => self.step_alone(held, replica, &act),
+                Some(before) => Self::step(held, before, replica, &act),
+                None => Self::step_alone(held, replica, &act),
             };
             Some((act, step?))
         };
@@ -300,7 +278,7 @@ impl<F: Fast> Semantics for Twin<F> {
     }
 
     fn rename_state(&self, held: &Held<F>, to: &[usize]) -> Held<F> {
-        self.from(&self.core.rename_state(&held.state, to))
+        self.replica_of(&self.core.rename_state(&held.state, to))
     }
 
     fn rename_delta(&self, delta: &Delta, to: &[usize]) -> Delta {
@@ -340,7 +318,7 @@ impl<F: Fast> Semantics for Twin<F> {
     }
 
     fn state_from_json(&self, json: &serde_json::Value) -> Option<Held<F>> {
-        Some(self.from(&self.core.state_from_json(json)?))
+        Some(self.replica_of(&self.core.state_from_json(json)?))
     }
 
     fn mutation_from_json(&self, held: &Held<F>, replica: usize, json: &serde_json::Value) -> Option<Act> {
@@ -357,41 +335,5 @@ impl<F: Fast> Semantics for Twin<F> {
 
     fn delta_json(&self, delta: &Delta) -> serde_json::Value {
         self.core.delta_json(delta)
-    }
-}
-
-/// A replica joins and closes at once: the laws of merge and of closure by themselves are those of the reference.
-impl<F: Fast> Algebra for Twin<F> {
-    fn universe(&self, records: usize) -> Vec<Family<Held<F>>> {
-        let families = core_universe(records).into_iter();
-        families
-            .map(|Family { name, records, all, closed }| {
-                let of = |(at, state)| {
-                    if closed.binary_search(&at).is_ok() {
-                        self.from(&state)
-                    } else {
-                        self.without_replica(state)
-                    }
-                };
-                let all = all.into_iter().enumerate().map(of).collect();
-                Family { name, records, all, closed }
-            })
-            .collect()
-    }
-
-    fn body<'s>(&self, held: &'s Held<F>) -> Option<&'s State> {
-        Some(&held.state)
-    }
-
-    fn delta_body<'d>(&self, delta: &'d Delta) -> Option<&'d State> {
-        Some(delta)
-    }
-
-    fn merge(&self, left: &Held<F>, right: &Held<F>) -> Option<Held<F>> {
-        self.core.merge(&left.state, &right.state).map(|state| self.without_replica(state))
-    }
-
-    fn close(&self, held: &Held<F>) -> Option<Held<F>> {
-        self.core.close(&held.state).map(|state| self.without_replica(state))
     }
 }
