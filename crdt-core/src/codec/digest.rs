@@ -7,9 +7,7 @@ use super::tables::Replicas;
 use super::{KIND_DIGEST, runs, writer};
 use crate::context::Run;
 use crate::digest::Digest;
-use crate::dot::ReplicaId;
 use crate::limits;
-use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 /// How a digest is that of no state. `[spec: ENC-11]`
@@ -65,8 +63,7 @@ pub fn check_digest(digest: &Digest) -> Result<(), MalformedDigest> {
 /// Of what [`check_digest`] refuses it gives bytes that [`decode_digest`] refuses, or reads as another digest.
 pub fn encode_digest(digest: &Digest) -> Vec<u8> {
     let context: Vec<Run> = digest.context.runs().collect();
-    let ids: BTreeSet<ReplicaId> = context.iter().chain(&digest.live).map(|run| run.replica).collect();
-    let replicas = Replicas::of(&ids);
+    let replicas = Replicas::of(context.iter().chain(&digest.live).map(|run| run.replica));
     let mut out = writer::begin(KIND_DIGEST);
     replicas.write(&mut out);
     runs::write(&mut out, &replicas.ids, &context);

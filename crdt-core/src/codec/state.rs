@@ -10,7 +10,6 @@ use crate::limits;
 use crate::record::Record;
 use crate::state::State;
 use crate::wellformed::check_well_formed;
-use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 /// The canonical bytes of a state or delta: equal states give equal bytes. `[spec: ENC-1]`
@@ -18,7 +17,7 @@ use alloc::vec::Vec;
 /// Of a state that is not well-formed it gives bytes that [`decode`] refuses.
 pub fn encode(state: &State) -> Vec<u8> {
     let context: Vec<Run> = state.context().runs().collect();
-    let replicas = Replicas::of(&replicas_of(state, &context));
+    let replicas = Replicas::of(replicas_of(state, &context));
     let names = Names::of(state.records().map(|(_, record)| record));
     let mut out = writer::begin(KIND_STATE);
     replicas.write(&mut out);
@@ -40,13 +39,11 @@ pub fn encode(state: &State) -> Vec<u8> {
 }
 
 /// Every replica that the state names: seen, holding, or anchored to. `[spec: ENC-4]`
-fn replicas_of(state: &State, context: &[Run]) -> BTreeSet<ReplicaId> {
-    let mut replicas: BTreeSet<ReplicaId> = context.iter().map(|run| run.replica).collect();
-    for (dot, record) in state.records() {
-        let anchors = record.anchors().filter(|&anchor| anchor != VertexId::ROOT.0);
-        replicas.extend(anchors.chain([dot]).map(|dot| dot.replica));
-    }
-    replicas
+fn replicas_of<'s>(state: &'s State, context: &'s [Run]) -> impl Iterator<Item = ReplicaId> + 's {
+    let in_records = state.records().flat_map(|(dot, record)| {
+        record.anchors().filter(|&anchor| anchor != VertexId::ROOT.0).chain([dot]).map(|dot| dot.replica)
+    });
+    context.iter().map(|run| run.replica).chain(in_records)
 }
 
 /// The state that canonical bytes spell. Any bytes may be given. `[spec: ENC-1]` `[spec: ENC-10]`

@@ -8,7 +8,6 @@ use crate::context::Run;
 use crate::dot::{Dot, ReplicaId, VertexId};
 use crate::limits;
 use crate::record::{Name, Record};
-use alloc::collections::BTreeSet;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -25,8 +24,18 @@ pub(super) struct Replicas {
 }
 
 impl Replicas {
-    pub(super) fn of(ids: &BTreeSet<ReplicaId>) -> Self {
-        Self { ids: ids.iter().copied().collect(), used: Vec::new() }
+    /// Of replicas that come in any order, any number of times.
+    pub(super) fn of(named: impl Iterator<Item = ReplicaId>) -> Self {
+        let mut ids: Vec<ReplicaId> = Vec::new();
+        for id in named {
+            // Most name the one before again.
+            if ids.last() != Some(&id) {
+                ids.push(id);
+            }
+        }
+        ids.sort_unstable();
+        ids.dedup();
+        Self { ids, used: Vec::new() }
     }
 
     pub(super) fn write(&self, out: &mut Vec<u8>) {
@@ -118,14 +127,26 @@ pub(super) struct Names {
 
 impl Names {
     pub(super) fn of<'r>(records: impl Iterator<Item = &'r Record>) -> Self {
-        let mut names = BTreeSet::new();
+        let mut names: Vec<&Name> = Vec::new();
+        // A type, a label, an attribute is mostly the one before again; a vertex's name is its own.
+        let mut before: [Option<&Name>; 3] = [None; 3];
+        let mut name_again = |names: &mut Vec<_>, kind: usize, name| {
+            if before[kind].replace(name) != Some(name) {
+                names.push(name);
+            }
+        };
         for record in records {
             match record {
-                Record::Vertex(vertex) => names.extend([&vertex.vertex_type, &vertex.name]),
-                Record::Edge(edge) => names.extend([&edge.label]),
-                Record::Write(write) => names.extend([&write.name]),
+                Record::Vertex(vertex) => {
+                    name_again(&mut names, 0, &vertex.vertex_type);
+                    names.push(&vertex.name);
+                }
+                Record::Edge(edge) => name_again(&mut names, 1, &edge.label),
+                Record::Write(write) => name_again(&mut names, 2, &write.name),
             }
         }
+        names.sort_unstable();
+        names.dedup();
         Self { names: names.into_iter().cloned().collect(), used: Vec::new() }
     }
 

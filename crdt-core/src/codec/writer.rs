@@ -3,9 +3,14 @@
 use super::VERSION;
 use alloc::vec::Vec;
 
+/// Room for the delta of a usual mutation.
+const BYTES_USUAL: usize = 64;
+
 /// Version and kind, ready for the rest. `[spec: ENC-2]`
 pub(super) fn begin(kind: u8) -> Vec<u8> {
-    Vec::from([VERSION, kind])
+    let mut out = Vec::with_capacity(BYTES_USUAL);
+    out.extend([VERSION, kind]);
+    out
 }
 
 /// A 64-bit integer, seven bits a byte, least first, in as few bytes as possible. `[spec: ENC-3]`
