@@ -35,6 +35,7 @@ extern crate std;
 
 #[cfg(feature = "arbitrary")]
 mod arbitrary;
+mod changes;
 mod cloud;
 mod codec;
 mod context;
@@ -55,6 +56,7 @@ mod value;
 mod view;
 mod wellformed;
 
+pub use changes::{Change, Changes};
 pub use codec::{DecodeError, MalformedDigest, check_digest, decode, decode_digest, encode, encode_digest};
 pub use context::{CausalContext, Run, runs_of};
 pub use dictionary::Dictionary;
@@ -62,7 +64,7 @@ pub use digest::{Digest, Fingerprint, delta_for, digest, fingerprint};
 pub use dot::{Dot, EdgeId, ParseDotError, ReplicaId, VertexId};
 pub use mutation::*;
 pub use record::{Edge, EdgeKey, Name, RT, Rank, Record, Vertex, Write};
-pub use replica::{Change, Changes, Graph, Mutated, Replica, Shown};
+pub use replica::{Graph, Mutated, Replica, Shown};
 pub use state::{Delta, State};
 pub use value::{Value, ValueType};
 pub use view::{Placement, Repair, Rule, ShownEdge, Shows, View, view};

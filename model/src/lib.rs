@@ -21,6 +21,7 @@ pub mod shrink;
 pub mod suite;
 pub mod tables;
 pub mod trace;
+pub mod twin;
 pub mod verdict;
 pub mod walks;
 pub mod why;

@@ -7,6 +7,7 @@ use crate::histories::{Bound, HistoryRun};
 use crate::job::{Job, ReductionRun};
 use crate::schedules::{Restricted, ScheduleBound, ScheduleRun};
 use crate::semantics::Semantics;
+use crate::twin::{Core, Twin};
 use crate::verdict::RunReport;
 use crate::walks::{Faults, Walk, WalkRun};
 use dsr_core::{Dictionary, Mutation, MutationKind, MutationKind as K, RT, State};
@@ -79,37 +80,31 @@ impl Subject<'_> {
         Ok(runs)
     }
 
+    /// Small runs of L1, each of which asks everything of both cores and costs little. `[spec: CHECK-15]`
+    pub fn compared_histories(&self) -> Result<Vec<HistoryRun<Checked>>, FocusError> {
+        let mut runs = vec![
+            self.histories(3, Bound { replicas: 2, mutations: 1 }, &K::ALL)?,
+            self.histories(2, Bound { replicas: 3, mutations: 1 }, &K::ALL)?,
+        ];
+        for pair in pairs() {
+            runs.push(self.at_last(2, Bound { replicas: 2, mutations: 2 }, &pair)?);
+        }
+        for run in &mut runs {
+            run.name.push_str(", both cores");
+        }
+        Ok(runs)
+    }
+
     /// The runs of L2: all six kinds, and four concrete mutations twice each. `[spec: CHECK-6]`
-    pub fn schedules(&self) -> Result<Vec<Box<dyn Job>>, FocusError> {
-        let once =
-            ScheduleBound { replicas: 2, readers: 0, mutations: 1, restarts: 1, resynchronisations: 1 };
-        let twice = ScheduleBound { mutations: 2, ..once };
+    pub fn schedules(&self, core: Core) -> Result<Vec<Box<dyn Job>>, FocusError> {
         let all = self.histories(SCHEDULE_FOCUS, Bound { replicas: 2, mutations: 1 }, &MutationKind::ALL)?;
-        let (focus, everything) = (all.focus, all.semantics);
-        let four = Arc::new(Restricted { mutations: four_mutations(&everything), whole: everything.clone() });
-        let reader = ScheduleBound { readers: 1, ..once };
-        Ok(vec![
-            Box::new(ScheduleRun {
-                name: "2 × 1, all six".into(),
-                semantics: everything.clone(),
-                focus,
-                bound: once,
-                second_engine: true,
-            }),
-            Box::new(ScheduleRun {
-                name: "2 × 2, four mutations".into(),
-                semantics: four.clone(),
-                focus,
-                bound: twice,
-                second_engine: true,
-            }),
-            Box::new(ReductionRun {
-                name: "2 × 1 and a reader, all six".into(),
-                semantics: everything,
-                bound: reader,
-            }),
-            Box::new(ReductionRun { name: "2 × 2, four mutations".into(), semantics: four, bound: twice }),
-        ])
+        let (focus, checked) = (all.focus, Checked::clone(&all.semantics));
+        let four = four_mutations(&checked);
+        Ok(match core {
+            Core::Reference => schedules_of(Arc::new(checked), four, focus),
+            Core::Fast => schedules_of(Arc::new(Twin::alone(checked)), four, focus),
+            Core::Both => schedules_of(Arc::new(Twin::beside(checked)), four, focus),
+        })
     }
 
     /// The runs of L3: few replicas that do much, and many that do less; with `deep` longer ones.
@@ -148,6 +143,39 @@ impl Subject<'_> {
         runs.push(self.histories(2, bound(3, 2), &K::ALL)?);
         Ok(runs)
     }
+}
+
+/// `[spec: CHECK-6]` `[spec: CHECK-7]`
+fn schedules_of<S: Semantics<Mutation = Act>>(
+    everything: Arc<S>,
+    mutations: Vec<Act>,
+    focus: usize,
+) -> Vec<Box<dyn Job>> {
+    let once = ScheduleBound { replicas: 2, readers: 0, mutations: 1, restarts: 1, resynchronisations: 1 };
+    let (twice, reader) = (ScheduleBound { mutations: 2, ..once }, ScheduleBound { readers: 1, ..once });
+    let four = Arc::new(Restricted { mutations, whole: everything.clone() });
+    vec![
+        Box::new(ScheduleRun {
+            name: "2 × 1, all six".into(),
+            semantics: everything.clone(),
+            focus,
+            bound: once,
+            second_engine: true,
+        }),
+        Box::new(ScheduleRun {
+            name: "2 × 2, four mutations".into(),
+            semantics: four.clone(),
+            focus,
+            bound: twice,
+            second_engine: true,
+        }),
+        Box::new(ReductionRun {
+            name: "2 × 1 and a reader, all six".into(),
+            semantics: everything,
+            bound: reader,
+        }),
+        Box::new(ReductionRun { name: "2 × 2, four mutations".into(), semantics: four, bound: twice }),
+    ]
 }
 
 /// A mutation goes to each replica, in the worst case with a duplicate or an answer for each.

@@ -11,6 +11,7 @@ use crate::status::Status;
 use dsr_core::MutationKind;
 use dsr_model::progress::Limits;
 use dsr_model::suite;
+use dsr_model::twin::Core;
 use dsr_model::verdict::{RunReport, Verdict};
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -37,6 +38,7 @@ Examples:
   dsr check --semantics published                    the published semantics, and the shortest way to break each clause
   dsr check --semantics published --variant fork --agent-id distinct
   dsr check --deep --seconds-max 1800                as far as it goes in half an hour a run
+  dsr check --core both --layer l1                   the fast replica beside the reference in every run of L1
   dsr check --layer walks --seed 7                   long random walks; a failure is shrunk before it is shown
 
 Verdicts:
@@ -68,6 +70,9 @@ pub(crate) struct Arguments {
     /// Whose semantics is checked
     #[arg(long, value_enum, default_value_t = Whose::Checked)]
     semantics: Whose,
+    /// Which core is asked; if not said, the reference, and both in L0, in L2 and in small runs of L1
+    #[arg(long, value_enum)]
+    core: Option<CoreName>,
     /// Which implementation of the published semantics; `upstream` if not said
     #[arg(long, value_enum)]
     variant: Option<VariantName>,
@@ -135,6 +140,28 @@ pub(crate) enum Whose {
     Checked,
     /// The published one
     Published,
+}
+
+/// A core of the checked semantics.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
+pub(crate) enum CoreName {
+    /// The readable reference
+    Reference,
+    /// The fast replica alone
+    Fast,
+    /// The fast replica beside the reference, and all that can be seen of both compared: L1 takes between three and
+    /// four times as long as with the reference
+    Both,
+}
+
+impl CoreName {
+    fn core(self) -> Core {
+        match self {
+            Self::Reference => Core::Reference,
+            Self::Fast => Core::Fast,
+            Self::Both => Core::Both,
+        }
+    }
 }
 
 /// An implementation of the published semantics.

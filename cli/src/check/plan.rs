@@ -1,6 +1,6 @@
 //! Which runs the arguments ask for.
 
-use super::{AgentIds, Arguments, Layer, VariantName, Whose};
+use super::{AgentIds, Arguments, CoreName, Layer, VariantName, Whose};
 use crate::input::{self, InputError};
 use dsr_core::scene::{FLAT, Scene, Strictness};
 use dsr_core::{Dictionary, MutationKind};
@@ -10,11 +10,15 @@ use dsr_model::published::suite as published_suite;
 use dsr_model::published::{Stamps, Variant, Workers};
 use dsr_model::scenario::{Scenario, shipped};
 use dsr_model::suite::{FLAT_FOCUS, Subject};
+use dsr_model::twin::{Core, OnCore};
 use std::path::Path;
 use std::sync::Arc;
 
 /// Replicas touch this many vertices of a scene unless `--focus` names them.
 const FOCUS_DEFAULT: usize = 2;
+
+/// L0 asks both cores of states of at most this many records, unless one is named.
+const RECORDS_OF_BOTH: usize = 4;
 
 /// Random walks of a run unless `--walks` says otherwise.
 const WALKS: u64 = 1000;
@@ -24,6 +28,9 @@ const WALKS_DEEP: u64 = 100_000;
 /// Runs, the longest first, so that two cores are busy to the end.
 pub(super) fn jobs(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
     match arguments.semantics {
+        Whose::Published if arguments.core.is_some() => {
+            return Err("--core is of the checked semantics: leave out --semantics published".into());
+        }
         Whose::Published => return published(arguments),
         Whose::Checked if arguments.variant.is_some() || arguments.agent_id.is_some() => {
             return Err(
@@ -85,13 +92,21 @@ fn suite(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
     let scene = Scene::read(FLAT, &dictionary, Strictness::Strict).map_err(|error| error.to_string())?.scene;
     let subject = Subject { state: &scene.state, dictionary: &dictionary, names: &FLAT_FOCUS };
     let mut jobs: Vec<Box<dyn Job>> = Vec::new();
+    // Both cores where that costs little, unless one is named.
+    let chosen = arguments.core.map(CoreName::core);
+    let core = chosen.unwrap_or(Core::Reference);
     if wanted(Layer::L2) {
-        jobs.extend(subject.schedules().map_err(|error| error.to_string())?);
+        jobs.extend(subject.schedules(chosen.unwrap_or(Core::Both)).map_err(|error| error.to_string())?);
     }
     if wanted(Layer::L1) {
         let histories = if arguments.deep { subject.deep_histories() } else { subject.default_histories() };
         for run in histories.map_err(|error| error.to_string())? {
-            jobs.push(Box::new(run));
+            jobs.push(run.on(core));
+        }
+        if chosen.is_none() {
+            for run in subject.compared_histories().map_err(|error| error.to_string())? {
+                jobs.push(run.on(Core::Both));
+            }
         }
     }
     // Never by default: a sample is bounded, and would make the whole suite so.
@@ -99,7 +114,7 @@ fn suite(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
         let (walks, deep) = (if arguments.deep { WALKS_DEEP } else { WALKS }, arguments.deep);
         let runs = subject.walks(arguments.seed, arguments.walks.unwrap_or(walks), deep);
         for run in runs.map_err(|error| error.to_string())? {
-            jobs.push(Box::new(run));
+            jobs.push(run.on(core));
         }
     }
     if wanted(Layer::L0) {
@@ -108,7 +123,9 @@ fn suite(arguments: &Arguments) -> Result<Vec<Box<dyn Job>>, String> {
         let semantics = semantics.map_err(|error| error.to_string())?.semantics;
         let records = if arguments.deep { vec![5] } else { vec![4, 3] };
         for records in records {
-            jobs.push(Box::new(AlgebraRun { semantics: Arc::clone(&semantics), records }));
+            let small = records <= RECORDS_OF_BOTH;
+            let core = chosen.unwrap_or(if small { Core::Both } else { Core::Reference });
+            jobs.push(AlgebraRun { semantics: Arc::clone(&semantics), records }.on(core));
         }
     }
     if wanted(Layer::Scenario) {
@@ -156,7 +173,7 @@ fn of_file(arguments: &Arguments, file: &str) -> Result<Box<dyn Job>, String> {
     let mut run =
         subject.histories(names.len(), bound, &kinds).map_err(|error| format!("{file}: {error}"))?;
     run.name = format!("{file} [{}]: {}", names.join(", "), run.name);
-    Ok(Box::new(run))
+    Ok(run.on(arguments.core.map_or(Core::Reference, CoreName::core)))
 }
 
 fn is_scenario(file: &str) -> bool {

@@ -1,10 +1,11 @@
 //! Attributes: which writes of each register are shown. `[spec: VIEW-8]`
 
-use super::changes::Change;
+use super::flips::Flip;
 use super::graph::Graph;
 use super::held::{Exposure, Held, HeldWrite, Status};
 use super::names::NameId;
-use super::settle::{Came, Flip, Settling};
+use super::settle::{Came, Settling};
+use crate::changes::Change;
 use crate::dot::{Dot, VertexId};
 use crate::record::{Name, Rank};
 use crate::view::Repair;

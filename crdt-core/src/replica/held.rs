@@ -78,7 +78,7 @@ pub(super) struct WriteAt {
     pub(super) name: NameId,
 }
 
-/// A write in its register.
+/// A write in its register; its payload is shared with whoever made or reads it. `[spec: REPLICA-3]`
 #[derive(Clone, Debug)]
 pub(super) struct HeldWrite {
     pub(super) value: Value,

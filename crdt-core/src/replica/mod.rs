@@ -8,8 +8,8 @@
 //! | [`filing`], [`links`] | records into all indexes and out of them; the edges that a vertex is linked by |
 //! | [`plan`] | what joining a delta removes and adds: merge and closure by the indexes of anchors |
 //! | [`settle`] | carries that out, and brings each part of the view up to date where it is touched |
-//! | [`registers`], [`tree`], [`paths`], [`vertices`], [`attributes`] | the parts |
-//! | [`changes`] | what differs then |
+//! | [`flips`] | the edge claims that come into sight or go out of it |
+//! | [`registers`], [`tree`], [`detached`], [`paths`], [`vertices`], [`attributes`] | the parts |
 //! | [`read`], [`ground`], [`shown`] | the faces for readers, for mutations, for judges |
 //!
 //! With n records, and k edits (records that come or go by a delta and by closure):
@@ -23,16 +23,17 @@
 //! | of k edits | the sum | the sum: O(k · depth · log n), and what they strand |
 //! | `mutate` | as `apply` of its delta | twice that, if it is refused since it strands |
 //! | look-ups | O(log n) | and the claims of the register, the vertices of the name |
-//! | `snapshot` | O(1) | then the writer copies each node of the maps that it touches, once |
+//! | `snapshot` | O(1) | then the writer copies each node of the maps that it touches, and the context, once |
 //! | `state`, `encode`, `digest` | O(n) | |
 //!
 //! *Depth* is that of the kinematic tree and of the ways to the root.
 
 mod attributes;
-mod changes;
 #[cfg(test)]
 mod check;
+mod detached;
 mod filing;
+mod flips;
 mod graph;
 mod ground;
 mod held;
@@ -49,13 +50,16 @@ mod shown;
 mod tree;
 mod vertices;
 
-pub use changes::{Change, Changes};
 pub use graph::Graph;
 pub use shown::Shown;
 
+use crate::changes::Changes;
 use crate::dictionary::Dictionary;
 use crate::dot::{Dot, ReplicaId};
-use crate::mutation::{self, Author, MoveEdgeError, Mutation, MutationError, StrandError, new_edge};
+use crate::mutation::{
+    self, Author, MoveEdgeError, Mutation, MutationError, RemoveEdgeError, RemoveVertexError, StrandError,
+    new_edge,
+};
 use crate::record::{EdgeKey, Record};
 use crate::state::Delta;
 use alloc::sync::Arc;
@@ -115,6 +119,14 @@ impl Replica {
         Self { id, graph: Graph::new(dictionary) }
     }
 
+    /// A replica that goes on from what another one, or an earlier moment, has shown. O(1).
+    ///
+    /// Whoever takes the id of the replica that the snapshot is of must be that replica, and have made nothing
+    /// since. `[spec: ID-3]` `[spec: CRASH-2]`
+    pub fn on(id: ReplicaId, snapshot: Graph) -> Self {
+        Self { id, graph: snapshot }
+    }
+
     /// Whose dots its mutations use.
     pub fn id(&self) -> ReplicaId {
         self.id
@@ -142,36 +154,32 @@ impl Replica {
     pub fn mutate(&mut self, mutation: &Mutation, timestamp_ns: u64) -> Result<Mutated, MutationError> {
         let author = Author { replica: self.id, timestamp_ns };
         let graph = &self.graph;
-        let delta = match mutation {
-            Mutation::AddVertex { vertex, link } => mutation::add_vertex_to(graph, author, vertex, link)?,
-            Mutation::AddEdge { key, attributes } => mutation::add_edge_to(graph, author, key, attributes)?,
+        match mutation {
+            Mutation::AddVertex { vertex, link } => {
+                let delta = mutation::add_vertex_to(graph, author, vertex, link)?;
+                Ok(self.made(delta))
+            }
+            Mutation::AddEdge { key, attributes } => {
+                let delta = mutation::add_edge_to(graph, author, key, attributes)?;
+                Ok(self.made(delta))
+            }
             Mutation::UpdateAttributes { target, updates } => {
-                mutation::update_attributes_of(graph, author, *target, updates)?
+                let delta = mutation::update_attributes_of(graph, author, *target, updates)?;
+                Ok(self.made(delta))
             }
             Mutation::RemoveEdge { key } => {
                 let delta = mutation::removal_of_edge(graph, key)?;
-                return match self.apply_unless_it_strands(&delta) {
-                    Ok(changes) => Ok(Mutated { delta, changes }),
-                    Err(strands) => Err(mutation::RemoveEdgeError::from(strands).into()),
-                };
+                Ok(self.made_unless_it_strands(delta).map_err(RemoveEdgeError::from)?)
             }
             Mutation::RemoveVertex { vertex } => {
                 let delta = mutation::removal_of_vertex(graph, *vertex)?;
-                return match self.apply_unless_it_strands(&delta) {
-                    Ok(changes) => Ok(Mutated { delta, changes }),
-                    Err(strands) => Err(mutation::RemoveVertexError::from(strands).into()),
-                };
+                Ok(self.made_unless_it_strands(delta).map_err(RemoveVertexError::from)?)
             }
             Mutation::MoveEdge { from, to, attributes } => {
                 let delta = self.movement(author, from, to, attributes)?;
-                return match self.apply_unless_it_strands(&delta) {
-                    Ok(changes) => Ok(Mutated { delta, changes }),
-                    Err(strands) => Err(MoveEdgeError::from(strands).into()),
-                };
+                Ok(self.made_unless_it_strands(delta).map_err(MoveEdgeError::from)?)
             }
-        };
-        let changes = self.apply(&delta);
-        Ok(Mutated { delta, changes })
+        }
     }
 
     /// The delta of a move, stranding or not. `[spec: MUT-5.3]`
@@ -197,14 +205,19 @@ impl Replica {
         Ok(draft.delta)
     }
 
+    fn made(&mut self, delta: Delta) -> Mutated {
+        let changes = self.apply(&delta);
+        Mutated { delta, changes }
+    }
+
     /// Joins a delta, or, if a vertex is stranded by it that was not before, leaves all as it is.
     /// `[spec: MUT-4.2]`
-    fn apply_unless_it_strands(&mut self, delta: &Delta) -> Result<Changes, StrandError> {
-        let plan = self.graph.plan(delta);
+    fn made_unless_it_strands(&mut self, delta: Delta) -> Result<Mutated, StrandError> {
+        let plan = self.graph.plan(&delta);
         let done = self.graph.commit(plan.removed, plan.added, true);
         if done.stranded.is_empty() {
-            self.see(delta);
-            return Ok(done.changes);
+            self.see(&delta);
+            return Ok(Mutated { delta, changes: done.changes });
         }
         self.undo(&done.gone, done.came);
         Err(StrandError { vertices: done.stranded })

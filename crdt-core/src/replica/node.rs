@@ -8,6 +8,8 @@ use core::borrow::Borrow;
 pub(super) const FULL: usize = 64;
 /// A node with fewer is united with its neighbour, or takes from it.
 const THIN: usize = FULL / 4;
+/// The room for new entries in a copy of a node.
+const SPARE: usize = 4;
 
 #[derive(Clone, Debug)]
 pub(super) enum Node<K, V> {
@@ -25,9 +27,11 @@ pub(super) struct List<K, V> {
     pub(super) values: Vec<V>,
 }
 
+/// With room for some more: who copies a node is about to write to it.
 impl<K: Clone, V: Clone> Clone for List<K, V> {
     fn clone(&self) -> Self {
-        let (mut keys, mut values) = (Vec::with_capacity(FULL), Vec::with_capacity(FULL));
+        let room = (self.len() + SPARE).min(FULL);
+        let (mut keys, mut values) = (Vec::with_capacity(room), Vec::with_capacity(room));
         keys.extend_from_slice(&self.keys);
         values.extend_from_slice(&self.values);
         Self { keys, values }

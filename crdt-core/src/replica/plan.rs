@@ -27,7 +27,7 @@ impl Plan<'_> {
 }
 
 impl Graph {
-    /// The edits of joining a well-formed delta: O(delta and what it changes, · log n).
+    /// The edits of joining a well-formed delta: O(delta and what it changes, · log n), however deep anchors go.
     pub(super) fn plan<'d>(&self, delta: &'d Delta) -> Plan<'d> {
         let mut plan = self.merge(delta);
         // What has died, or was never held and is dead, and has not been asked what is anchored to it.
@@ -38,27 +38,38 @@ impl Graph {
                 dead.extend(self.waiting_for(run).filter(|dot| plan.loses(*dot)));
             }
         }
-        loop {
-            while let Some(dot) = dead.pop() {
-                dead.extend(self.anchored_to(dot).filter(|dot| plan.loses(*dot)));
-            }
-            let is_dead = |anchor: Dot| {
-                let held = plan.added.contains_key(&anchor)
-                    || self.records.contains(&anchor) && !plan.removed.contains(&anchor);
-                !held && (self.context.contains(anchor) || delta.context().contains(anchor))
-            };
-            let lost = plan.added.iter().filter(|(_, record)| record.anchors().any(is_dead));
-            dead.extend(lost.map(|(&dot, _)| dot));
-            if dead.is_empty() {
-                return plan;
-            }
-            for dot in &dead {
-                plan.added.remove(dot);
-                if self.records.contains(dot) {
-                    plan.removed.insert(*dot);
-                }
-            }
+        let is_dead = |anchor: Dot| {
+            let held = plan.added.contains_key(&anchor) || self.records.contains(&anchor);
+            !held && (self.context.contains(anchor) || delta.context().contains(anchor))
+        };
+        let lost = plan.added.iter().filter(|(_, record)| record.anchors().any(is_dead));
+        let lost: Vec<Dot> = lost.map(|(&dot, _)| dot).collect();
+        if dead.is_empty() && lost.is_empty() {
+            return plan;
         }
+        let mut anchored: Vec<(Dot, Dot)> = Vec::new();
+        for (&dot, record) in &plan.added {
+            anchored.extend(record.anchors().map(|anchor| (anchor, dot)));
+        }
+        anchored.sort_unstable();
+        dead.extend(lost.into_iter().filter(|dot| self.gives_up(&mut plan, *dot)));
+        while let Some(dot) = dead.pop() {
+            dead.extend(self.anchored_to(dot).filter(|dot| plan.loses(*dot)));
+            let start = anchored.partition_point(|(anchor, _)| *anchor < dot);
+            let here = anchored[start..].iter().take_while(|(anchor, _)| *anchor == dot);
+            dead.extend(here.map(|(_, dot)| *dot).filter(|dot| self.gives_up(&mut plan, *dot)));
+        }
+        plan
+    }
+
+    /// Adds no record that is anchored to the dead, nor leaves the one that it would have replaced; whether it was
+    /// to be added.
+    fn gives_up(&self, plan: &mut Plan<'_>, dot: Dot) -> bool {
+        let given_up = plan.added.remove(&dot).is_some();
+        if given_up && self.records.contains(&dot) {
+            plan.removed.insert(dot);
+        }
+        given_up
     }
 
     /// The pointwise maximum, as edits. `[spec: JOIN-1]` `[spec: JOIN-2]`

@@ -1,7 +1,8 @@
 //! Symbolic edges: the greatest visible claim of each register. `[spec: VIEW-2]` `[spec: VIEW-6]`
 
+use super::flips::Flip;
 use super::held::{HeldEdge, NONE, RegisterKey, Status};
-use super::settle::{Flip, Settling};
+use super::settle::Settling;
 use crate::dot::{Dot, EdgeId};
 use crate::view::{Repair, Rule};
 use alloc::vec::Vec;

@@ -4,23 +4,16 @@
 //! status of each record still written on it or on what has gone, and writes the new one. What differs
 //! becomes the changes, so these are exact by construction. `[spec: EVENT-1]`
 
-use super::changes::{Change, Changes};
 use super::filing::Gone;
+use super::flips::Flip;
 use super::graph::Graph;
 use super::held::{Held, HeldEdge, HeldVertex, Status, WriteAt};
+use crate::changes::{Change, Changes};
 use crate::dot::{Dot, EdgeId, VertexId};
 use crate::record::Record;
 use crate::view::Repair;
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
-
-/// An edge claim that has become visible or is no longer, as it was shown before.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Flip {
-    pub(super) dot: Dot,
-    pub(super) edge: HeldEdge,
-    pub(super) appears: bool,
-}
 
 /// What was filed under a dot.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -131,7 +124,7 @@ impl Settling<'_> {
         for gone in &self.gone {
             self.graph.release(gone);
         }
-        Outcome { changes: Changes::new(self.changes), stranded, gone, came: self.came }
+        Outcome { changes: self.changes.into_iter().collect(), stranded, gone, came: self.came }
     }
 
     fn touches_vertices(&self) -> bool {
@@ -151,44 +144,6 @@ impl Settling<'_> {
     pub(super) fn gone_at(&self, dot: Dot) -> Option<&Held> {
         let at = self.gone.binary_search_by_key(&dot, |gone| gone.dot).ok()?;
         Some(&self.gone[at].held)
-    }
-
-    /// Whether a claim that has gone out of sight is held still, and so among those of its register.
-    pub(super) fn is_held_still(&self, flip: &Flip) -> bool {
-        self.graph.edge_held(flip.dot) == Some(&flip.edge)
-    }
-
-    /// Every edge claim that was visible and is not, or the reverse. Whatever waits at a dot that has come,
-    /// or is left at one that was replaced, is among them.
-    fn flips(&self) -> Vec<Flip> {
-        let mut flips = Vec::new();
-        let mut at = BTreeSet::new();
-        for gone in &self.gone {
-            match gone.held {
-                Held::Edge(edge) if edge.status != Status::Invisible => {
-                    flips.push(Flip { dot: gone.dot, edge, appears: false });
-                }
-                Held::Vertex(_) => at.extend(self.graph.edges_at(gone.dot)),
-                _ => {}
-            }
-        }
-        for &(dot, kind) in &self.came {
-            match kind {
-                Came::Edge => {
-                    at.insert(dot);
-                }
-                Came::Vertex => at.extend(self.graph.edges_at(dot)),
-                Came::Write(_) => {}
-            }
-        }
-        for dot in at {
-            let Some(&edge) = self.graph.edge_held(dot) else { continue };
-            let appears = self.graph.is_visible(&edge);
-            if appears != (edge.status != Status::Invisible) {
-                flips.push(Flip { dot, edge, appears });
-            }
-        }
-        flips
     }
 
     fn settle_edges(&mut self, flips: &[Flip]) {

@@ -53,6 +53,13 @@ impl Graph {
     }
 }
 
+impl Shown<'_> {
+    /// See [`Graph::stranded`].
+    pub fn stranded(&self) -> Vec<VertexId> {
+        self.graph.stranded()
+    }
+}
+
 impl Shows for Shown<'_> {
     fn state(&self) -> &State {
         self.state

@@ -26,9 +26,10 @@
 //! replica makes itself are, needs one, and one more for each claim that it unseats. Worst case: as many as
 //! there are claims of lesser rank on the children concerned and in `broken`, and those that they unseat.
 
+use super::flips::Flip;
 use super::graph::Graph;
 use super::held::{Held, HeldEdge, NONE, Status};
-use super::settle::{Flip, Settling};
+use super::settle::Settling;
 use crate::dot::{Dot, EdgeId, VertexId};
 use crate::record::Rank;
 use crate::view::{Repair, Rule};
@@ -213,28 +214,6 @@ impl Settling<'_> {
                 if let Some((dot, edge)) = new {
                     self.show(dot, edge);
                 }
-            }
-        }
-    }
-
-    /// A top that has a child and no parent hangs from the root. `[spec: VIEW-4]`
-    pub(super) fn settle_detached(&mut self) {
-        let mut tops = core::mem::take(&mut self.tops);
-        tops.extend(self.gone_vertices().map(|(dot, _)| dot));
-        for top in tops {
-            let was = self.graph.detached.contains(&top);
-            let is = self.graph.vertex_held(top).is_some_and(|top| top.parent() == NONE && top.children > 0);
-            if was == is {
-                continue;
-            }
-            self.detached_before.insert(top, was);
-            let repair = Repair::Detached { vertex: VertexId(top) };
-            if is {
-                self.graph.detached.insert(top, ());
-                self.repairs_after.push(repair);
-            } else {
-                self.graph.detached.remove(&top);
-                self.repairs_before.push(repair);
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Vertices that have come or gone, and who is found by their names. `[spec: VIEW-7]`
 
-use super::changes::Change;
 use super::settle::Settling;
+use crate::changes::Change;
 use crate::dot::{Dot, VertexId};
 use crate::mutation::is_root_name;
 use crate::record::Name;

@@ -4,8 +4,8 @@
 #![allow(dead_code, reason = "each test uses a part of it")]
 
 use dsr_core::{
-    Author, Change, Delta, Dictionary, Dot, Edge, EdgeId, Mutation, MutationError, Name, Repair, Replica,
-    ReplicaId, Shows, State, Vertex, VertexId, View, Write, delta_for, digest, encode, fingerprint,
+    Author, Change, Changes, Delta, Dictionary, Dot, Edge, EdgeId, Mutation, MutationError, Name, Repair,
+    Replica, ReplicaId, Shows, State, Vertex, VertexId, View, Write, delta_for, digest, encode, fingerprint,
     invariant, view,
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -102,6 +102,7 @@ impl Pair {
     fn advance(&mut self, state: State, told: &[Change]) -> usize {
         let (old, new) = (view(&self.state, &self.dictionary), view(&state, &self.dictionary));
         let expected = changes(&facts(&old), &facts(&new));
+        assert_eq!(Changes::between(&old, &new).into_iter().collect::<Vec<_>>(), expected, "from scratch");
         assert_eq!(told, expected, "changes\nfrom {:#?}\nto {:#?}", self.state, state);
         assert_eq!(self.disagreement(&state, &new), None, "from {:#?}\nto {state:#?}", self.state);
         self.state = state;

@@ -2,12 +2,16 @@
 //!
 //! A checker that finds nothing may be blind. Each alarm is `dsr-core` with one flaw, or the search with one,
 //! behind the same traits, under the same clauses and with the reductions that ship; none is told what is
-//! broken. Every one must be found, and the sound core by no layer.
+//! broken. Every one must be found, and the sound core by no layer. Alarms of fast replicas run beside the sound
+//! reference, and are to be told from it.
 
 mod authors;
 mod broken;
+mod flawed;
 mod joins;
 mod parts;
+mod replica_alarm;
+mod replicas;
 mod report;
 mod resync;
 mod run;
@@ -17,8 +21,10 @@ mod subject;
 mod views;
 
 pub use broken::{Broken, Flaw, Sound};
+pub use flawed::{Flawed, ReplicaFlaw};
+pub use replica_alarm::ReplicaAlarm;
 pub use report::{AlarmReport, Report, report};
-pub use run::{Finding, LayerReport, run_alarm, run_sound};
+pub use run::{Finding, LayerReport, run_alarm, run_sound, run_sound_replica};
 pub use shown::Shown;
 pub use subject::{A, B, subject};
 
@@ -223,6 +229,33 @@ fn of_shapes() -> Vec<Alarm> {
             "CHECK-11",
             "the search takes it that no rank ever decides anything",
             OrderUntold,
+        ),
+    ]
+}
+
+/// Every alarm of a fast replica.
+pub fn of_replicas() -> Vec<ReplicaAlarm> {
+    use replicas::{
+        DeathsUnanswered, LoserTold, MissedChange, NamesKept, NotUndone, SnapshotsShare, SpuriousChange,
+        StaleParent, WritesKept,
+    };
+    vec![
+        ReplicaAlarm::of::<MissedChange>("change-missed", "EVENT-1", "an edge is hidden and nobody is told"),
+        ReplicaAlarm::of::<SpuriousChange>("change-made-up", "EVENT-1", "a name is told as an attribute"),
+        ReplicaAlarm::of::<LoserTold>("loser-told", "EVENT-3", "a write that loses is told as if it had won"),
+        ReplicaAlarm::of::<StaleParent>("stale-parent", "REPLICA-1", "a parent that has gone is still shown"),
+        ReplicaAlarm::of::<NamesKept>("names-kept", "REPLICA-1", "a name finds a vertex that has gone"),
+        ReplicaAlarm::of::<WritesKept>("writes-kept", "REPLICA-1", "writes that have gone are still found"),
+        ReplicaAlarm::of::<NotUndone>("not-undone", "REPLICA-1", "a refused mutation removes all the same"),
+        ReplicaAlarm::of::<DeathsUnanswered>(
+            "deaths-unanswered",
+            "REPLICA-1",
+            "an answer to a digest leaves out what is dead",
+        ),
+        ReplicaAlarm::of::<SnapshotsShare>(
+            "snapshots-share",
+            "REPLICA-2",
+            "a snapshot shows what its replica has come to since",
         ),
     ]
 }

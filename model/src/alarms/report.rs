@@ -1,7 +1,7 @@
 //! All alarms as a table and as JSON.
 
-use super::run::{Finding, LayerReport, run_alarm, run_sound};
-use super::{Alarm, all};
+use super::run::{Finding, LayerReport, run_alarm, run_sound, run_sound_replica};
+use super::{all, of_replicas};
 use serde::Serialize;
 use std::fmt;
 
@@ -37,28 +37,44 @@ pub struct Report {
     pub alarms: Vec<AlarmReport>,
     /// The sound core in the same layers and bounds: nothing may be found.
     pub sound: Vec<LayerReport>,
+    /// The sound replica beside it.
+    pub sound_replica: Vec<LayerReport>,
 }
 
 impl Report {
     /// Whether every flaw was found, and nothing where there is none.
     pub fn is_good(&self) -> bool {
-        self.alarms.iter().all(|alarm| alarm.found) && self.sound.iter().all(|layer| layer.finding.is_none())
+        let mut sound = self.sound.iter().chain(&self.sound_replica);
+        self.alarms.iter().all(|alarm| alarm.found) && sound.all(|layer| layer.finding.is_none())
     }
 }
 
 /// Runs every alarm, and the sound core. With `all_layers`, every layer is tried on every alarm.
 /// `[spec: CHECK-8]`
 pub fn report(all_layers: bool) -> Report {
-    let alarms = all().iter().map(|alarm| alarm_report(alarm, run_alarm(alarm, all_layers))).collect();
-    Report { alarms, sound: run_sound() }
+    let cores = all().into_iter().map(|alarm| {
+        let layers = run_alarm(&alarm, all_layers);
+        alarm_report(alarm.name, alarm.broken, alarm.clause, layers)
+    });
+    let replicas = of_replicas().into_iter().map(|alarm| {
+        let layers = alarm.run(all_layers);
+        alarm_report(alarm.name, alarm.broken, alarm.clause, layers)
+    });
+    let alarms = cores.chain(replicas).collect();
+    Report { alarms, sound: run_sound(), sound_replica: run_sound_replica() }
 }
 
-fn alarm_report(alarm: &Alarm, layers: Vec<LayerReport>) -> AlarmReport {
+fn alarm_report(
+    name: &'static str,
+    broken: &'static str,
+    offends: &'static str,
+    layers: Vec<LayerReport>,
+) -> AlarmReport {
     let first: Option<Finding> = layers.iter().find_map(|layer| layer.finding.clone());
     AlarmReport {
-        name: alarm.name,
-        broken: alarm.broken,
-        offends: alarm.clause,
+        name,
+        broken,
+        offends,
         found: first.is_some(),
         layer: first.as_ref().map(|finding| finding.layer),
         bound: first.as_ref().map(|finding| finding.bound.clone()),
@@ -79,15 +95,15 @@ impl fmt::Display for Report {
                 write_layer(f, layer)?;
             }
         }
-        let alarms = self.sound.iter().filter(|layer| layer.finding.is_some()).count();
-        writeln!(
-            f,
-            "{:<7} {:<24} nothing is broken",
-            if alarms == 0 { "silent" } else { "FALSE" },
-            "sound core"
-        )?;
-        self.sound.iter().try_for_each(|layer| write_layer(f, layer))
+        write_sound(f, "sound core", &self.sound)?;
+        write_sound(f, "sound replica", &self.sound_replica)
     }
+}
+
+fn write_sound(f: &mut fmt::Formatter<'_>, name: &str, layers: &[LayerReport]) -> fmt::Result {
+    let is_silent = layers.iter().all(|layer| layer.finding.is_none());
+    writeln!(f, "{:<7} {name:<24} nothing is broken", if is_silent { "silent" } else { "FALSE" })?;
+    layers.iter().try_for_each(|layer| write_layer(f, layer))
 }
 
 fn write_layer(f: &mut fmt::Formatter<'_>, layer: &LayerReport) -> fmt::Result {

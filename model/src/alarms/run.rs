@@ -3,10 +3,11 @@
 use super::Alarm;
 use super::broken::{Broken, Sound};
 use super::subject::{A, B, subject};
-use crate::algebra;
+use crate::algebra::{self, Algebra};
 use crate::histories::{Bound, HistoryRun};
 use crate::progress::{Limits, Progress};
 use crate::schedules::{ScheduleBound, ScheduleRun};
+use crate::twin::Twin;
 use crate::verdict::{RunReport, Verdict};
 use dsr_core::{MutationKind, VertexId};
 use serde::Serialize;
@@ -58,12 +59,17 @@ pub fn run_sound() -> Vec<LayerReport> {
     layers(&|kinds, focus| Broken::new("sound", subject(kinds, focus), Arc::new(Sound)), true)
 }
 
-/// The semantics under test with some kinds of mutation on some vertices.
-type Make<'m> = &'m dyn Fn(&[MutationKind], &[VertexId]) -> Broken;
+/// The sound replica beside the reference, through the same layers and bounds: nothing may be found.
+pub fn run_sound_replica() -> Vec<LayerReport> {
+    layers(&|kinds, focus| Twin::beside(subject(kinds, focus)), true)
+}
 
-fn layers(make: Make<'_>, all_layers: bool) -> Vec<LayerReport> {
+/// The semantics under test with some kinds of mutation on some vertices.
+pub(super) type Make<'m, S> = &'m dyn Fn(&[MutationKind], &[VertexId]) -> S;
+
+pub(super) fn layers<S: Algebra>(make: Make<'_, S>, all_layers: bool) -> Vec<LayerReport> {
     let mut reports = Vec::new();
-    for (layer, search) in [("L0", algebra as Search), ("L1", histories), ("L2", schedules)] {
+    for (layer, search) in [("L0", algebra as Search<S>), ("L1", histories), ("L2", schedules)] {
         let started = Instant::now();
         let Outcome { finding, searched, exhaustive } = search(make);
         let found = finding.is_some();
@@ -76,7 +82,7 @@ fn layers(make: Make<'_>, all_layers: bool) -> Vec<LayerReport> {
     reports
 }
 
-type Search = fn(Make<'_>) -> Outcome;
+type Search<S> = fn(Make<'_, S>) -> Outcome;
 
 /// What one layer came to.
 struct Outcome {
@@ -85,7 +91,7 @@ struct Outcome {
     exhaustive: bool,
 }
 
-fn algebra(make: Make<'_>) -> Outcome {
+fn algebra<S: Algebra>(make: Make<'_, S>) -> Outcome {
     let broken = make(&MutationKind::ALL, &[A, B]);
     let mut searched = String::new();
     for records in 1..=4 {
@@ -152,7 +158,7 @@ fn climb(layer: &'static str, search: impl Fn(&Rung, String, &Arc<Progress>) -> 
     outcome
 }
 
-fn histories(make: Make<'_>) -> Outcome {
+fn histories<S: Algebra>(make: Make<'_, S>) -> Outcome {
     climb("L1", |rung, name, progress| {
         let run = HistoryRun {
             name,
@@ -167,7 +173,7 @@ fn histories(make: Make<'_>) -> Outcome {
 }
 
 /// With a restart and a resynchronisation while that is cheap, then with a restart.
-fn schedules(make: Make<'_>) -> Outcome {
+fn schedules<S: Algebra>(make: Make<'_, S>) -> Outcome {
     climb("L2", |rung, name, progress| {
         let (replicas, mutations) = (rung.replicas, rung.mutations);
         let resynchronisations = u8::from(replicas * mutations < 4);

@@ -1,10 +1,11 @@
 //! Alphabets: which concrete mutations replicas may do in a view.
 
+use super::Sight;
 use super::renaming::fresh_name;
 use super::replica_id;
 use dsr_core::{
     AttributeMap, Edge, EdgeKey, ElementId, Mutation, MutationKind, NewVertex, Placement, RT, ReplicaId,
-    Value, VertexId, VertexLink, View,
+    Value, VertexId, VertexLink,
 };
 use std::collections::BTreeSet;
 
@@ -48,7 +49,7 @@ impl Alphabet {
     }
 
     /// The mutations that replica `replica` may try, whether or not the core accepts them.
-    pub(super) fn enabled(&self, view: &View<'_>, replica: usize) -> Vec<Mutation> {
+    pub(super) fn enabled(&self, view: &impl Sight, replica: usize) -> Vec<Mutation> {
         let focus: Vec<VertexId> = view.vertices().iter().copied().filter(|&id| self.in_focus(id)).collect();
         let mut mutations = Vec::new();
         for kind in &self.kinds {
@@ -77,7 +78,7 @@ impl Alphabet {
         vertex.is_root() || self.focus.contains(&vertex) || (is_added && !self.at_last)
     }
 
-    fn update_attributes(&self, view: &View<'_>, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
+    fn update_attributes(&self, view: &impl Sight, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
         let targets = focus.iter().filter(|vertex| !vertex.is_root() && self.at(**vertex));
         let vertices = targets.map(|&vertex| ElementId::Vertex(vertex));
         let symbolic = self.edges_in_focus(view).filter(|shown| !shown.edge.is_rt() && !self.at_last);
@@ -86,19 +87,19 @@ impl Alphabet {
             let update =
                 |value| Mutation::UpdateAttributes { target, updates: [(ATTRIBUTE.into(), value)].into() };
             mutations.push(update(Some(Value::Int(1))));
-            if !self.at_last && view.attribute(target, ATTRIBUTE).is_some() {
+            if !self.at_last && !view.attribute_writes(target, ATTRIBUTE).is_empty() {
                 mutations.push(update(None));
             }
         }
     }
 
-    fn remove_edge(&self, view: &View<'_>, mutations: &mut Vec<Mutation>) {
+    fn remove_edge(&self, view: &impl Sight, mutations: &mut Vec<Mutation>) {
         mutations
             .extend(self.edges_in_focus(view).map(|shown| Mutation::RemoveEdge { key: shown.edge.key() }));
     }
 
     /// Kinematic edges to other parents, symbolic ones to other targets.
-    fn move_edge(&self, view: &View<'_>, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
+    fn move_edge(&self, view: &impl Sight, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
         for shown in self.edges_in_focus(view) {
             let from = shown.edge.key();
             for &end in focus {
@@ -120,7 +121,7 @@ impl Alphabet {
         }
     }
 
-    fn edges_in_focus<'v>(&self, view: &'v View<'_>) -> impl Iterator<Item = dsr_core::ShownEdge<'v>> {
+    fn edges_in_focus<'v>(&self, view: &'v impl Sight) -> impl Iterator<Item = dsr_core::ShownEdge<'v>> {
         let inside = |shown: &&dsr_core::ShownEdge<'v>| {
             let (from, to) = (shown.edge.from, shown.edge.to);
             let between = self.in_focus(from) && self.in_focus(to) && self.at(owner(shown.edge));
@@ -131,7 +132,13 @@ impl Alphabet {
 
     /// Below each vertex of the tree, and *in* each vertex but the root; one more with a shared name below
     /// the root.
-    fn add_vertex(&self, view: &View<'_>, replica: usize, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
+    fn add_vertex(
+        &self,
+        view: &impl Sight,
+        replica: usize,
+        focus: &[VertexId],
+        mutations: &mut Vec<Mutation>,
+    ) {
         let Some(dot) = view.state().next_dot(replica_id(replica)) else { return };
         let fresh = NewVertex::new(NEW_TYPE, &fresh_name(dot));
         let twin = NewVertex::new(NEW_TYPE, SHARED_NAME);
@@ -151,7 +158,7 @@ impl Alphabet {
 
     /// Between each two vertices besides the root a functional edge, and a plain one to what is not older; a
     /// kinematic one to each vertex that has no parent.
-    fn add_edge(&self, view: &View<'_>, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
+    fn add_edge(&self, view: &impl Sight, focus: &[VertexId], mutations: &mut Vec<Mutation>) {
         for &from in focus {
             for &to in focus.iter().filter(|&&to| to != from) {
                 let orphan = matches!(view.placement(to), Some(Placement::Outside | Placement::Detached));

@@ -1,41 +1,43 @@
 //! Intent: a local mutation shows its effect, and the effect stays until something that beats it by the
 //! conflict table is delivered. `[spec: INTENT-1]` `[spec: INTENT-2]` `[spec: INTENT-3]`
 
-use super::Checked;
-use crate::semantics::{Breach, Step};
+use super::Sight;
+use crate::semantics::Breach;
 use dsr_core::{
-    Dot, Edge, EdgeId, EdgeKey, Mutation, Placement, RT, Record, Repair, Rule, Run, State, VertexId, View,
-    invariant, view,
+    Delta, Dot, Edge, EdgeId, EdgeKey, Mutation, Placement, RT, Record, Repair, Rule, Run, State, VertexId,
+    invariant,
 };
 
 /// The effect of a mutation is shown by its author at once; the delta brings the author to its own state,
 /// adds, and strands nobody. `[property: INTENT-1]` `[property: MUT-0]` `[property: JOIN-4]`
-pub(super) fn check_step(before: &View<'_>, mutation: &Mutation, step: &Step<Checked>) -> Result<(), Breach> {
+pub(crate) fn check_step(
+    before: &impl Sight,
+    mutation: &Mutation,
+    delta: &Delta,
+    after: &impl Sight,
+) -> Result<(), Breach> {
     let state = before.state();
-    if state.joined(&step.delta) != step.after {
+    if state.joined(delta) != *after.state() {
         return Err(Breach::new("MUT-0", "the author's state is not its old state joined with the delta"));
     }
-    if !state.is_below(&step.after) {
+    if !state.is_below(after.state()) {
         return Err(Breach::new("JOIN-4", "the author's new state does not include its old one"));
     }
-    check_fresh(state, &step.delta)?;
-    check_speaks_of(state, &step.delta)?;
-    let after = view(&step.after, before.dictionary());
-    check_effect(&after, mutation, &step.delta)?;
+    check_fresh(state, delta)?;
+    check_speaks_of(state, delta)?;
+    check_effect(after, mutation, delta)?;
     // What is added to a stranded vertex shares its lot; what was there before must not come to it.
-    let newly = after
-        .stranded()
-        .iter()
-        .find(|&&vertex| before.has_vertex(vertex) && !before.stranded().contains(&vertex));
+    let (was, is) = (before.stranded(), after.stranded());
+    let newly = is.iter().find(|&&vertex| before.has_vertex(vertex) && !was.contains(&vertex));
     match newly {
         Some(vertex) => Err(Breach::new("MUT-4.2", format_args!("{vertex} is stranded by a local mutation"))),
-        None => check_unrepaired(before, &after),
+        None => check_unrepaired(before, after),
     }
 }
 
 /// A local mutation breaks nothing by itself: who saw no repair before sees none after it.
 /// `[property: VIEW-12]`
-fn check_unrepaired(before: &View<'_>, after: &View<'_>) -> Result<(), Breach> {
+fn check_unrepaired(before: &impl Sight, after: &impl Sight) -> Result<(), Breach> {
     match after.repairs() {
         [repair, ..] if before.repairs().is_empty() => {
             Err(Breach::new("VIEW-12", format_args!("after a local mutation: {repair}")))
@@ -70,7 +72,7 @@ fn check_fresh(before: &State, delta: &State) -> Result<(), Breach> {
     Ok(())
 }
 
-fn check_effect(after: &View<'_>, mutation: &Mutation, delta: &State) -> Result<(), Breach> {
+fn check_effect(after: &impl Sight, mutation: &Mutation, delta: &State) -> Result<(), Breach> {
     let shown = match mutation {
         Mutation::AddVertex { vertex, .. } => {
             let new =
@@ -92,13 +94,13 @@ fn check_effect(after: &View<'_>, mutation: &Mutation, delta: &State) -> Result<
     if shown { Ok(()) } else { Err(Breach::new("INTENT-1", "the author's view does not show the effect")) }
 }
 
-fn shows_new_edges(after: &View<'_>, delta: &State) -> bool {
+fn shows_new_edges(after: &impl Sight, delta: &State) -> bool {
     let mut edges = delta.records().filter(|(_, record)| matches!(record, Record::Edge(_)));
     edges.all(|(dot, _)| after.shows_edge(EdgeId(dot)))
 }
 
 /// Whether a register still shows an edge: no loser may come back when the winner is removed by hand.
-fn shows_register(after: &View<'_>, key: &EdgeKey) -> bool {
+fn shows_register(after: &impl Sight, key: &EdgeKey) -> bool {
     if &*key.label == RT {
         return matches!(after.placement(key.to), Some(Placement::Child { .. }));
     }
@@ -110,7 +112,7 @@ fn shows_register(after: &View<'_>, key: &EdgeKey) -> bool {
 
 /// A held claim is hidden only by greater ones: by one shown on its register, or by a way of greater
 /// kinematic claims that it would close to a cycle. `[property: INTENT-2]`
-pub(super) fn check_hidden_are_outranked(view: &View<'_>) -> Result<(), Breach> {
+pub(crate) fn check_hidden_are_outranked(view: &impl Sight) -> Result<(), Breach> {
     for repair in view.repairs() {
         match repair {
             Repair::Superseded { hidden, shown, rule } => check_superseded(view, *hidden, *shown, *rule)?,
@@ -132,7 +134,7 @@ pub(super) fn check_hidden_are_outranked(view: &View<'_>) -> Result<(), Breach> 
     Ok(())
 }
 
-fn check_superseded(view: &View<'_>, hidden: EdgeId, shown: EdgeId, rule: Rule) -> Result<(), Breach> {
+fn check_superseded(view: &impl Sight, hidden: EdgeId, shown: EdgeId, rule: Rule) -> Result<(), Breach> {
     let state = view.state();
     let outranked = state.rank(hidden.0) < state.rank(shown.0);
     let (Some(loser), Some(winner)) = (state.edge(hidden.0), state.edge(shown.0)) else {
@@ -150,7 +152,7 @@ fn check_superseded(view: &View<'_>, hidden: EdgeId, shown: EdgeId, rule: Rule) 
     }
 }
 
-fn check_cycle(view: &View<'_>, hidden: EdgeId) -> Result<(), Breach> {
+fn check_cycle(view: &impl Sight, hidden: EdgeId) -> Result<(), Breach> {
     let state = view.state();
     let fault =
         |what| Err(Breach::new("INTENT-2", format_args!("{hidden} is hidden as a cycle, but {what}")));
@@ -172,7 +174,7 @@ fn check_cycle(view: &View<'_>, hidden: EdgeId) -> Result<(), Breach> {
 }
 
 /// What is removed stays removed; what was held is held or dead. `[property: STATE-3]` `[property: JOIN-4]`
-pub(super) fn check_delivery(before: &State, after: &State) -> Result<(), Breach> {
+pub(crate) fn check_delivery(before: &State, after: &State) -> Result<(), Breach> {
     if let Err(dot) = invariant::check_removal_is_final(before, after) {
         return Err(Breach::new("STATE-3", format_args!("{dot} was removed and is back")));
     }

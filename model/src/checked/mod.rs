@@ -5,6 +5,7 @@ mod explain;
 mod intent;
 mod readdress;
 mod renaming;
+mod sight;
 mod simpler;
 mod timeless;
 mod words;
@@ -18,7 +19,10 @@ use dsr_core::{
     Author, Delta, Dictionary, Mutation, MutationKind, Repair, ReplicaId, Rule, Shows, State, View,
     check_well_formed, delta_for, digest, view,
 };
+pub(crate) use intent::{check_delivery, check_step};
+pub(crate) use sight::Sight;
 use std::fmt;
+pub(crate) use timeless::appearance as looks;
 
 /// `dsr-core` from an initial graph, with an alphabet of concrete mutations.
 #[derive(Clone, Debug)]
@@ -108,12 +112,27 @@ pub fn judge_shown(shown: &impl Shows) -> Result<(), Breach> {
 /// `[property: INV-3]` `[property: INV-4]` `[property: INV-5]` `[property: INV-6]` `[property: VIEW-9]`
 /// `[property: VIEW-10]` `[property: INTENT-2]`
 pub fn judge_view(view: &View<'_>) -> Result<(), Breach> {
+    judge_sight(view)
+}
+
+fn judge_sight(view: &impl Sight) -> Result<(), Breach> {
     judge_shown(view)?;
     intent::check_hidden_are_outranked(view)
 }
 
+/// Judges a state by what is shown of it. `[property: STATE-6]`
+pub(crate) fn judge_state(view: &impl Sight) -> Result<Judged, Breach> {
+    check_well_formed(view.state()).map_err(|fault| Breach::new("STATE-6", fault))?;
+    judge_sight(view)?;
+    Ok(Judged {
+        witnesses: witnesses_of(view),
+        order_sensitive: is_order_sensitive(view),
+        entangled: timeless::is_entangled(view),
+    })
+}
+
 /// What a view bears witness of.
-fn witnesses_of(view: &View<'_>) -> Witnesses {
+fn witnesses_of(view: &impl Sight) -> Witnesses {
     let mut seen = Witnesses::default();
     for repair in view.repairs() {
         seen.insert(Witnesses::bit(repair_bit(repair)));
@@ -132,7 +151,7 @@ fn witnesses_of(view: &View<'_>) -> Witnesses {
     seen
 }
 
-fn has_concurrent_writes(view: &View<'_>) -> bool {
+fn has_concurrent_writes(view: &impl Sight) -> bool {
     view.writes()
         .windows(2)
         .any(|pair| pair[0].1.target == pair[1].1.target && pair[0].1.name == pair[1].1.name)
@@ -140,8 +159,15 @@ fn has_concurrent_writes(view: &View<'_>) -> bool {
 
 /// A view without repairs and without two live writes of one attribute does not depend on the order of
 /// dots. `[spec: VIEW-11]`
-fn is_order_sensitive(view: &View<'_>) -> bool {
+fn is_order_sensitive(view: &impl Sight) -> bool {
     !view.repairs().is_empty() || has_concurrent_writes(view)
+}
+
+impl Checked {
+    /// What a replica may try in what it sees.
+    pub(crate) fn mutations_in(&self, view: &impl Sight, replica: usize) -> Vec<Act> {
+        self.alphabet.enabled(view, replica).into_iter().map(Act).collect()
+    }
 }
 
 impl Semantics for Checked {
@@ -158,7 +184,7 @@ impl Semantics for Checked {
     }
 
     fn mutations(&self, state: &State, replica: usize) -> Vec<Act> {
-        self.alphabet.enabled(&view(state, &self.dictionary), replica).into_iter().map(Act).collect()
+        self.mutations_in(&view(state, &self.dictionary), replica)
     }
 
     /// The alphabet is a sample; the core refuses what must not be done.
@@ -249,16 +275,8 @@ impl Semantics for Checked {
         timeless::appearance(&view(state, &self.dictionary))
     }
 
-    /// `[property: STATE-6]`
     fn judge(&self, state: &State) -> Result<Judged, Breach> {
-        check_well_formed(state).map_err(|fault| Breach::new("STATE-6", fault))?;
-        let view = view(state, &self.dictionary);
-        judge_view(&view)?;
-        Ok(Judged {
-            witnesses: witnesses_of(&view),
-            order_sensitive: is_order_sensitive(&view),
-            entangled: timeless::is_entangled(&view),
-        })
+        judge_state(&view(state, &self.dictionary))
     }
 
     fn judge_step(
@@ -268,7 +286,8 @@ impl Semantics for Checked {
         mutation: &Act,
         step: &Step<Self>,
     ) -> Result<(), Breach> {
-        intent::check_step(&view(before, &self.dictionary), &mutation.0, step)
+        let after = view(&step.after, &self.dictionary);
+        intent::check_step(&view(before, &self.dictionary), &mutation.0, &step.delta, &after)
     }
 
     fn judge_delivery(&self, before: &State, after: &State) -> Result<(), Breach> {

@@ -4,8 +4,9 @@
 //! writes of one attribute, among all kinematic claims, and among vertices, of which a name or a lost
 //! component takes the oldest. Nowhere else does it look at a stamp.
 
+use super::Sight;
 use crate::semantics::Competition;
-use dsr_core::{Delta, Dictionary, Edge, Record, Repair, State, Vertex, View, Write};
+use dsr_core::{Delta, Dictionary, Edge, Record, Repair, State, Vertex, Write};
 use rustc_hash::FxHasher;
 use std::hash::{Hash, Hasher};
 
@@ -61,14 +62,14 @@ fn is_rt(record: &Record) -> bool {
 }
 
 /// Whether claims on different registers decide about each other in this view: see [`compared`].
-pub(super) fn is_entangled(view: &View<'_>) -> bool {
+pub(super) fn is_entangled(view: &impl Sight) -> bool {
     view.repairs()
         .iter()
         .any(|repair| matches!(repair, Repair::CycleBroken { .. } | Repair::Reattached { .. }))
 }
 
 /// A digest of everything that a view shows, but for stamps.
-pub(super) fn appearance(view: &View<'_>) -> u64 {
+pub(crate) fn appearance(view: &impl Sight) -> u64 {
     let mut hasher = FxHasher::default();
     for &vertex in view.vertices() {
         vertex.hash(&mut hasher);

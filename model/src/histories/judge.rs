@@ -259,7 +259,10 @@ impl<S: Semantics> Histories<S> {
     /// What was delivered changes nothing when it is delivered again.
     fn judge_again(&self, state: &S::State, set: &[DeltaId]) -> Result<(), Fault> {
         for &delta in set {
-            if self.semantics.join(state, &self.tables.delta(delta)) != *state {
+            let again = self.semantics.join(state, &self.tables.delta(delta));
+            let delivery = self.semantics.judge_delivery(state, &again);
+            delivery.map_err(|breach| Fault::new(breach, set, Some(delta)))?;
+            if again != *state {
                 let breach = Breach::new("JOIN-3", TWICE);
                 return Err(Fault::new(breach, set, Some(delta)));
             }

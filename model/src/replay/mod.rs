@@ -29,6 +29,7 @@ use crate::gallery;
 use crate::published::suite::Published;
 use crate::semantics::Semantics;
 use crate::trace::{CannotHappen, Trace, Unsound};
+use crate::twin::{self, Twin};
 
 /// Why a trace does not happen again as it is written. Steps count from 1.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
@@ -120,6 +121,15 @@ pub fn replay(trace: &Trace) -> Result<Replayed, ReplayError> {
     }
     if let Some(alarm) = alarms::all().into_iter().find(|alarm| alarm.name == name) {
         return replay_with(&alarm.on(checked(trace)?), trace);
+    }
+    if name == twin::ALONE {
+        return replay_with(&Twin::alone(checked(trace)?), trace);
+    }
+    if name == twin::BESIDE {
+        return replay_with(&Twin::beside(checked(trace)?), trace);
+    }
+    if let Some(alarm) = alarms::of_replicas().into_iter().find(|alarm| alarm.name == name) {
+        return alarm.replay(checked(trace)?, trace);
     }
     Err(ReplayError::NoSemantics { name: name.into() })
 }

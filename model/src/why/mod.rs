@@ -17,6 +17,7 @@ use crate::gallery;
 use crate::replay::{self, Replay, ReplayError};
 use crate::semantics::Semantics;
 use crate::trace::Trace;
+use crate::twin;
 use tell::{Evidence, tell};
 
 /// Why there is no answer. Steps count from 1.
@@ -73,7 +74,10 @@ pub fn why(trace: &Trace, step: usize, replica: &str, element: &str) -> Result<W
     if name.starts_with("published") {
         return why_with(&replay::published_suite(trace)?, trace, step, at, &target);
     }
-    if name == "checked" {
+    // What a replica of either kind holds and shows is told by the reference.
+    let is_replica = [twin::ALONE, twin::BESIDE].contains(&name)
+        || alarms::of_replicas().iter().any(|alarm| alarm.name == name);
+    if name == "checked" || is_replica {
         return why_with(&replay::checked(trace)?, trace, step, at, &target);
     }
     match alarms::all().into_iter().find(|alarm| alarm.name == name) {

@@ -1,4 +1,6 @@
-//! What an `apply` has changed in the graph that is shown. `[spec: EVENT-1]` to `[spec: EVENT-5]`
+//! What has changed in the graph that is shown. `[spec: EVENT-1]` to `[spec: EVENT-5]`
+
+mod between;
 
 use crate::dot::{Dot, EdgeId, VertexId};
 use crate::record::{EdgeKey, Name};
@@ -56,11 +58,6 @@ pub enum Change {
 pub struct Changes(Vec<Change>);
 
 impl Changes {
-    pub(super) fn new(mut changes: Vec<Change>) -> Self {
-        changes.sort_unstable();
-        Self(changes)
-    }
-
     /// Whether what is shown is as it was.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
@@ -74,6 +71,15 @@ impl Changes {
     /// All, in order.
     pub fn iter(&self) -> core::slice::Iter<'_, Change> {
         self.0.iter()
+    }
+}
+
+/// In whatever order they come.
+impl FromIterator<Change> for Changes {
+    fn from_iter<I: IntoIterator<Item = Change>>(changes: I) -> Self {
+        let mut changes: Vec<Change> = changes.into_iter().collect();
+        changes.sort_unstable();
+        Self(changes)
     }
 }
 
