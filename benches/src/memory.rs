@@ -14,7 +14,8 @@ static BYTES: AtomicIsize = AtomicIsize::new(0);
 
 /// The bytes that are still allocated of those that `make` has asked for, with what it has made.
 ///
-/// Bytes as asked for: what an allocator adds to round them up is not in them. Only one at a time may measure.
+/// Bytes as asked for: what an allocator adds to round them up is not in them. All threads are counted, and only one
+/// at a time may measure.
 pub fn bytes_of<T>(make: impl FnOnce() -> T) -> (isize, T) {
     BYTES.store(0, Relaxed);
     COUNTS.store(true, Relaxed);

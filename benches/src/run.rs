@@ -88,6 +88,8 @@ pub fn run(
     for question in questions::all().into_iter().filter(|question| is_meant(pattern, question.id)) {
         tell(question.id);
         is_any = true;
+        let turns = if extent == Extent::Once { question.turns.min(10) } else { question.turns };
+        let question = Question { turns, ..question };
         let mut sides = (question.sides)(&question, &is_wanted)?;
         let times = hold(&mut sides, extent.patience(&question))?;
         results.rows.push(Row { question, ratio: ratio(&times), times });
