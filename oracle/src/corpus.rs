@@ -16,7 +16,9 @@ use std::sync::PoisonError;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
 
 /// Requests that a program may be behind.
-const BEHIND_MAX: usize = 4096;
+const BEHIND_MAX: usize = 8192;
+/// So many bytes of requests are sent at once: fewer than what a program is behind by.
+const TOGETHER_BYTES: usize = 1 << 15;
 
 /// What the corpus has shown.
 #[derive(Clone, Debug)]
@@ -153,15 +155,20 @@ fn side_by_side<'c>(
     let mut behind: std::collections::VecDeque<(String, Vec<Want>)> = std::collections::VecDeque::new();
     let mut waiting = 0;
     let mut known = Known::default();
+    // Cases go together: each message wakes the program, and costs more than what it asks.
+    let mut lines = Vec::new();
     loop {
         let case = next();
         if let Some(case) = case {
             let script = Script::of(case, id);
             id += script.wants.len() as u64;
             counts.steps.fetch_add(case.steps.len() as u64, Relaxed);
-            program.send(script.lines);
+            lines.extend_from_slice(&script.lines);
             waiting += script.wants.len();
             behind.push_back((case.id.clone(), script.wants));
+        }
+        if lines.len() > TOGETHER_BYTES || case.is_none() {
+            program.send(std::mem::take(&mut lines));
         }
         while waiting > BEHIND_MAX || case.is_none() {
             let Some((case, wants)) = behind.pop_front() else { break };
