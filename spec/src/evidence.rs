@@ -171,7 +171,10 @@ fn add_layers(layers: &[Layer], grounds: &mut BTreeMap<ClauseId, Grounds>) {
         for id in judged {
             let Some(of_clause) = grounds.get_mut(id) else { continue };
             if layer.is_exhaustive() {
-                of_clause.layers.push(layer.name.clone());
+                let name = layer.kind();
+                if !of_clause.layers.iter().any(|known| known == name) {
+                    of_clause.layers.push(name.into());
+                }
             } else {
                 of_clause.walked = true;
             }

@@ -21,9 +21,14 @@ pub struct Layer {
 }
 
 impl Layer {
+    /// Its name, without what tells those of its runs that ask both cores.
+    pub fn kind(&self) -> &str {
+        self.name.trim_end_matches(" (both cores)")
+    }
+
     /// Whether it visits every state within its bounds, or only samples.
     pub fn is_exhaustive(&self) -> bool {
-        self.name != WALKS
+        self.kind() != WALKS
     }
 
     /// The runs in short: those that differ in two kinds of mutation are one.
