@@ -32,7 +32,12 @@ fn the_extracted_program_agrees_and_says_so_in_json() {
         vec!["random", "--histories", "10000", "--seed", "3"],
     ] {
         let output = dsr(&[&arguments[..], &["--format", "json", "--program", &program]].concat());
-        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+        assert_eq!(
+            output.status.code(),
+            Some(0),
+            "{arguments:?}: {}",
+            String::from_utf8_lossy(&output.stderr)
+        );
         let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
         assert_eq!(report["verdict"], "agree", "{arguments:?}");
         assert!(report["seconds"].as_f64().is_some_and(|seconds| seconds > 0.0));

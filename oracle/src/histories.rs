@@ -22,7 +22,7 @@ use std::sync::Arc;
 /// How far the histories go.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Extent {
-    /// A minute on two cores: one mutation of each replica, and pairs of kinds at one vertex.
+    /// Seconds: one mutation of each replica, and pairs of kinds at one vertex.
     Small,
     /// The default runs of L1. `[spec: CHECK-3]`
     Default,

@@ -34,7 +34,7 @@ pub(super) struct Arguments {
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
 enum How {
-    /// One mutation of each replica, and pairs of kinds at one vertex: a minute
+    /// One mutation of each replica, and pairs of kinds at one vertex: seconds
     Small,
     /// The default runs of L1
     Default,

@@ -17,8 +17,8 @@ counts as a disagreement, is the chapter spec/oracle.md. A disagreement is shown
 
 const AFTER: &str = "\
 Examples:
-  dsr oracle histories                               every canonical history of L1, a quarter of an hour
-  dsr oracle histories --extent small                the same at smaller bounds, a minute
+  dsr oracle histories                               every canonical history of L1, five minutes
+  dsr oracle histories --extent small                the same at smaller bounds, seconds
   dsr oracle random --histories 1000000 --seed 1     random histories of hostile shape
   dsr oracle random --seed 1 --only 4711             one of them, again
   dsr oracle corpus                                  the conformance corpus, twice
