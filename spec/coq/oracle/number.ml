@@ -4,6 +4,9 @@ module Z = Z
 
 type t = Z.t
 
+(* Whether a number is kept as a machine's integer, as nearly all are: Zarith keeps two equal ones the same way. *)
+let is_small (x : t) = Obj.is_int (Obj.repr x)
+
 let zero = Z.zero
 let one = Z.one
 let double p = Z.shift_left p 1
@@ -17,9 +20,9 @@ let multiply = Z.mul
 let less x y = if Z.lt x y then Z.zero else Z.sub x y
 let min = Z.min
 let max = Z.max
-let equal = Z.equal
-let at_most = Z.leq
-let below = Z.lt
+let equal (x : t) (y : t) = x == y || ((not (is_small x && is_small y)) && Z.equal x y)
+let below (x : t) (y : t) = if is_small x && is_small y then (Obj.magic x : int) < Obj.magic y else Z.lt x y
+let at_most x y = not (below y x)
 
 let on_positive odd even one p =
   if Z.equal p Z.one then one ()
