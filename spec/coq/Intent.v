@@ -131,7 +131,7 @@ Section Later.
   Proof. intros K N A. destruct (displaced Y X h A K) as [B | B]; [easy | exact B]. Qed.
 End Later.
 
-(** ** [INTENT-3] "It can surface in one way only: closure takes the winner away" is not so *)
+(** ** [INTENT-3] The two ways in which a loser surfaces without closure *)
 
 Section Examples.
   Open Scope string_scope.
