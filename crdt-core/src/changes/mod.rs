@@ -58,6 +58,10 @@ pub enum Change {
 pub struct Changes(Vec<Change>);
 
 impl Changes {
+    pub(crate) fn one(change: Change) -> Self {
+        Self(Vec::from([change]))
+    }
+
     /// Whether what is shown is as it was.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()

@@ -38,11 +38,21 @@ impl Graph {
         if !matches!(record, Record::Write(_)) {
             self.settle_down(dot);
         }
-        let stamp = record.stamp();
-        if let Some(count) = self.stamps.insert(stamp, 1) {
-            self.stamps.insert(stamp, count + 1);
-        }
+        self.count_stamp(record.stamp());
         came
+    }
+
+    /// One more record of a stamp.
+    pub(super) fn count_stamp(&mut self, stamp: u64) {
+        self.stamps.upsert(stamp, 1, |count| *count += 1);
+    }
+
+    /// One record less of a stamp.
+    pub(super) fn discount_stamp(&mut self, stamp: u64) {
+        self.stamps.remove_if(&stamp, |count| {
+            *count -= 1;
+            *count == 0
+        });
     }
 
     /// Whether records can be anchored to a dot: the root, a vertex, an edge.
@@ -163,9 +173,7 @@ impl Graph {
                 self.loose.remove(&(anchor, dot));
             }
         }
-        if let Some(count) = self.stamps.remove(&stamp).filter(|count| *count > 1) {
-            self.stamps.insert(stamp, count - 1);
-        }
+        self.discount_stamp(stamp);
         Some(gone)
     }
 
