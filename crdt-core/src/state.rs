@@ -8,7 +8,6 @@ use crate::context::{CausalContext, Run};
 use crate::dot::{Dot, ReplicaId};
 use crate::record::{Edge, Rank, Record, Vertex, Write};
 use alloc::collections::BTreeMap;
-use alloc::collections::btree_map::Entry;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
@@ -159,23 +158,19 @@ impl State {
     /// merges into whom (`[spec: JOIN-2]`). Returns whether the result may need [`close`](Self::close).
     pub fn merge(&mut self, other: &Self) -> bool {
         let mut disturbed = self.drop_dead_in(other);
+        let mut fresh = BTreeMap::new();
         for (&dot, theirs) in &other.store {
-            match self.store.entry(dot) {
-                Entry::Occupied(mut ours) => {
-                    if ours.get() < theirs {
-                        ours.insert(theirs.clone());
-                        disturbed = true;
-                    }
-                }
-                Entry::Vacant(gap) => {
-                    if !self.context.contains(dot) {
-                        gap.insert(theirs.clone());
-                        let context = &self.context;
-                        disturbed |= theirs.anchors().any(|anchor| context.contains(anchor));
-                    }
-                }
+            if !self.context.contains(dot) {
+                disturbed |= theirs.anchors().any(|anchor| self.context.contains(anchor));
+                fresh.insert(dot, Arc::clone(theirs));
+            } else if let Some(ours) = self.store.get_mut(&dot)
+                && *ours < *theirs
+            {
+                ours.clone_from(theirs);
+                disturbed = true;
             }
         }
+        self.store.append(&mut fresh);
         // A dot that arrives dead can be the anchor of a record that waits here.
         disturbed |=
             other.context.unseen_runs_by(&self.context).any(|run| other.dead_within(run).next().is_some());

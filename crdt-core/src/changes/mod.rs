@@ -82,7 +82,8 @@ impl Changes {
 impl FromIterator<Change> for Changes {
     fn from_iter<I: IntoIterator<Item = Change>>(changes: I) -> Self {
         let mut changes: Vec<Change> = changes.into_iter().collect();
-        changes.sort_unstable();
+        // They come in a few ascending runs, which a stable sort merges.
+        changes.sort();
         Self(changes)
     }
 }

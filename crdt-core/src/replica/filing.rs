@@ -4,6 +4,7 @@ use super::graph::{Graph, hash_of};
 use super::held::{Exposure, Held, HeldEdge, HeldVertex, HeldWrite, Link, NONE, Status, WriteAt, mix};
 use super::settle::Came;
 use crate::dot::{Dot, VertexId};
+use crate::mutation::is_root_name;
 use crate::record::{Edge, Record, Vertex, Write};
 use alloc::vec::Vec;
 
@@ -22,7 +23,11 @@ impl Graph {
     /// Files a record in every index, shown as nothing yet.
     pub(super) fn file(&mut self, dot: Dot, record: &Record) -> Came {
         let (held, came) = match record {
-            Record::Vertex(vertex) => (Held::Vertex(self.file_vertex(dot, vertex)), Came::Vertex),
+            Record::Vertex(vertex) => {
+                // Beside the filing of the name, which looks at the same place.
+                let is_alone = !is_root_name(&vertex.name) && !self.is_named(&vertex.name);
+                (Held::Vertex(self.file_vertex(dot, vertex)), Came::Vertex { is_alone })
+            }
             Record::Edge(edge) => (Held::Edge(self.file_edge(dot, edge)), Came::Edge),
             Record::Write(write) => {
                 let at = self.file_write(dot, write);

@@ -92,7 +92,11 @@ impl<K, V> List<K, V> {
 
 /// Which child of an inner node a key belongs to.
 pub(super) fn child_of<K: Borrow<Q>, Q: Ord + ?Sized>(keys: &[K], key: &Q) -> usize {
-    keys.partition_point(|least| least.borrow() <= key).saturating_sub(1)
+    // Keys mostly grow.
+    match keys.last() {
+        Some(last) if last.borrow() <= key => keys.len() - 1,
+        _ => keys.partition_point(|least| least.borrow() <= key).saturating_sub(1),
+    }
 }
 
 /// What was said of the value met, and a right neighbour.
