@@ -21,6 +21,9 @@ pub struct State {
     context: CausalContext,
 }
 
+/// So many new records, if they are a good part of all, are not inserted one by one.
+const MANY: usize = 64;
+
 /// What a mutation returns and a network carries. `[spec: STATE-5]`
 pub type Delta = State;
 
@@ -158,19 +161,23 @@ impl State {
     /// merges into whom (`[spec: JOIN-2]`). Returns whether the result may need [`close`](Self::close).
     pub fn merge(&mut self, other: &Self) -> bool {
         let mut disturbed = self.drop_dead_in(other);
-        let mut fresh = BTreeMap::new();
+        let context = &self.context;
+        let mut fresh = Vec::new();
         for (&dot, theirs) in &other.store {
-            if !self.context.contains(dot) {
-                disturbed |= theirs.anchors().any(|anchor| self.context.contains(anchor));
-                fresh.insert(dot, Arc::clone(theirs));
-            } else if let Some(ours) = self.store.get_mut(&dot)
-                && *ours < *theirs
-            {
+            if !context.contains(dot) {
+                disturbed |= theirs.anchors().any(|anchor| context.contains(anchor));
+                fresh.push((dot, Arc::clone(theirs)));
+            } else if let Some(ours) = self.store.get_mut(&dot).filter(|ours| **ours < *theirs) {
                 ours.clone_from(theirs);
                 disturbed = true;
             }
         }
-        self.store.append(&mut fresh);
+        if fresh.len() > MANY.max(self.store.len() / 8) {
+            // In order already: one pass makes a tree of them, another one of both.
+            self.store.append(&mut fresh.into_iter().collect());
+        } else {
+            self.store.extend(fresh);
+        }
         // A dot that arrives dead can be the anchor of a record that waits here.
         disturbed |=
             other.context.unseen_runs_by(&self.context).any(|run| other.dead_within(run).next().is_some());

@@ -98,15 +98,15 @@ impl<K: Ord + Clone, V: Clone> Map<K, V> {
     /// Inserts, or lets `meet` deal with the value that is there; what it says.
     fn insert_or<R>(&mut self, key: K, value: V, meet: impl FnOnce(&mut V, V) -> R) -> Option<R> {
         let root = Arc::make_mut(&mut self.root);
-        let (met, added) = root.insert(key, value, meet);
+        let (answer, added) = root.insert(key, value, meet);
         if let Some((least, right)) = added {
             // The first key is not looked at: any will do.
             let left = core::mem::replace(&mut self.root, Arc::new(Node::Leaf(List::new())));
             let children = List { keys: Vec::from([least.clone(), least]), values: Vec::from([left, right]) };
             self.root = Arc::new(Node::Inner(children));
         }
-        self.len += usize::from(met.is_none());
-        met
+        self.len += usize::from(answer.is_none());
+        answer
     }
 
     /// Removes; the value that was there.

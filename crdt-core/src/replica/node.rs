@@ -112,7 +112,12 @@ impl<K: Ord + Clone, V: Clone> Node<K, V> {
 
     /// Inserts, or lets `meet` deal with the value that is there; what it says, and a right neighbour if the node
     /// was split.
-    pub(super) fn insert<R>(&mut self, key: K, value: V, meet: impl FnOnce(&mut V, V) -> R) -> Inserted<K, V, R> {
+    pub(super) fn insert<R>(
+        &mut self,
+        key: K,
+        value: V,
+        meet: impl FnOnce(&mut V, V) -> R,
+    ) -> Inserted<K, V, R> {
         match self {
             Self::Leaf(entries) => match entries.keys.binary_search(&key) {
                 Ok(at) => (Some(meet(&mut entries.values[at], value)), None),
@@ -123,9 +128,9 @@ impl<K: Ord + Clone, V: Clone> Node<K, V> {
             },
             Self::Inner(children) => {
                 let at = child_of(&children.keys, &key);
-                let (met, added) = Arc::make_mut(&mut children.values[at]).insert(key, value, meet);
+                let (answer, added) = Arc::make_mut(&mut children.values[at]).insert(key, value, meet);
                 let right = added.and_then(|added| children.insert_or_split(at + 1, added));
-                (met, right.map(|right| (right.keys[0].clone(), Arc::new(Self::Inner(right)))))
+                (answer, right.map(|right| (right.keys[0].clone(), Arc::new(Self::Inner(right)))))
             }
         }
     }

@@ -64,7 +64,7 @@ fn oracle_a_map_is_a_btree_map_and_its_clones_stay_as_they_were() {
                     2 => {
                         let stays = |value: &mut u64| {
                             *value += 1;
-                            *value % 2 == 0
+                            value.is_multiple_of(2)
                         };
                         let gone = map.remove_if(&key, |value| !stays(value));
                         let known_to_go = known.get_mut(&key).is_some_and(|value| !stays(value));
