@@ -39,6 +39,11 @@ impl State {
         Self { store: records.into_iter().map(|(dot, record)| (dot, Arc::new(record))).collect(), context }
     }
 
+    /// [`assemble`](Self::assemble), of records that are shared already.
+    pub(crate) fn of_parts(records: Vec<(Dot, Arc<Record>)>, context: CausalContext) -> Self {
+        Self { store: records.into_iter().collect(), context }
+    }
+
     /// Files a record under a dot that nobody has used yet.
     pub(crate) fn insert(&mut self, dot: Dot, record: Record) {
         self.context.insert(dot);
