@@ -142,3 +142,38 @@ fn is_in_tree(tree: &BTreeMap<Dot, u64>, dot: Dot) -> bool {
 fn run_of((start, &last): (&Dot, &u64)) -> Run {
     Run { replica: start.replica, first: start.sequence, last }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ReplicaId;
+
+    fn cloud(runs: &[Run]) -> Cloud {
+        let mut cloud = Cloud::new();
+        for &run in runs {
+            cloud.insert(run);
+        }
+        cloud
+    }
+
+    /// The two forms keep one promise: growing or shrinking, forwards or backwards, equal sets have equal forms.
+    #[test]
+    fn law_the_form_follows_from_the_number_alone() {
+        let run = |at: u64| Run { replica: ReplicaId::agent(1), first: 3 * at, last: 3 * at + 1 };
+        let runs: Vec<Run> = (1..=3 * FEW as u64).map(run).collect();
+        for count in 0..=runs.len() {
+            let (kept, rest) = runs.split_at(count);
+            let grown = cloud(kept);
+            let backwards: Vec<Run> = kept.iter().rev().copied().collect();
+            let mut shrunk = cloud(&runs);
+            for &run in rest {
+                shrunk.remove(run);
+            }
+            assert_eq!(matches!(grown, Cloud::Many(_)), count > FEW, "{count} runs");
+            assert_eq!(grown, cloud(&backwards));
+            assert_eq!(grown, shrunk);
+            assert_eq!(grown.iter().collect::<Vec<_>>(), kept);
+            assert_eq!(grown.is_empty(), kept.is_empty());
+        }
+    }
+}

@@ -332,6 +332,7 @@ mod tests {
                 built
             });
             assert_eq!(by_runs, context);
+            assert_eq!(context.is_empty(), set.is_empty());
             for agent in 0..2 {
                 for n in 0..5 {
                     assert_eq!(context.contains(dot(agent, n)), set.contains(&dot(agent, n)));

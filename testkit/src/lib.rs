@@ -7,6 +7,7 @@
 //! | [`candidates`], [`pick`], [`attempt`] | concrete mutations in a view |
 //! | [`history`], [`World`] | replicas that mutate, deliver twice and out of order, and resynchronise |
 //! | [`state`] | a state from a few lines of text |
+//! | [`cases`] | how many samples a test takes |
 //! | `bytes` (feature `arbitrary`) | universes, fates and steps from bytes, for fuzzers |
 //!
 //! ```
@@ -31,11 +32,13 @@ pub mod bytes;
 mod enabled;
 pub mod history;
 mod language;
+mod sampling;
 pub mod universe;
 mod world;
 
 pub use enabled::{NAMES, attempt, candidates, dictionary, pick};
 pub use history::{History, Step, histories};
 pub use language::{parse_state, state};
+pub use sampling::cases;
 pub use universe::{Anchors, Fate, Universe, encoded_states, fates, states, universes};
 pub use world::{World, author};

@@ -103,7 +103,7 @@ impl Graph {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
+    #![proptest_config(dsr_testkit::cases(2000))]
 
     /// `[spec: STATE-6]` `[spec: REPLICA-1]`
     #[test]

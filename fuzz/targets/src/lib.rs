@@ -23,7 +23,7 @@ mod laws;
 mod marks;
 pub mod noise;
 // Replica and reference side by side, as the core's own tests have them.
-#[path = "../../../crdt-core/tests/replica_support/mod.rs"]
+#[path = "../../../crdt-core/tests/all/replica_support/mod.rs"]
 mod pair;
 mod protocol;
 mod scene;

@@ -5,7 +5,7 @@ use dsr_core::{
     CausalContext, Digest, Dot, Record, ReplicaId, Run, State, Value, Vertex, VertexId, Write, check_digest,
     check_well_formed, decode, delta_for, digest, encode, fingerprint, limits,
 };
-use dsr_testkit::{Anchors, Universe, state, states};
+use dsr_testkit::{Anchors, Universe, cases, state, states};
 use proptest::prelude::*;
 
 /// All that SYNC-3 says of the delta for `a` from `b`.
@@ -54,7 +54,7 @@ fn law_the_delta_is_enough_and_least_on_small_universes() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(6000))]
+    #![proptest_config(cases(6000))]
 
     /// `[spec: SYNC-3]`
     #[test]

@@ -1,6 +1,5 @@
 //! Files that are no scene at all: each a clear error with its place, and never a panic.
 
-#![cfg(feature = "serde")]
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -8,12 +7,10 @@
     reason = "a test that cannot go on says where"
 )]
 
-mod scene_support;
-
+use crate::scene_support::{check_lossless, fault_lines, faults, link, scene, symbol, with_attributes};
 use dsr_core::scene::{FLAT, FaultKind, Scene, Strictness, TINY};
 use dsr_core::{Dictionary, limits};
 use proptest::prelude::*;
-use scene_support::{check_lossless, fault_lines, faults, link, scene, symbol, with_attributes};
 
 /// [spec: SCENE-3]
 #[test]

@@ -1,6 +1,5 @@
 //! Every type of value, on vertices and on edges, there and back.
 
-#![cfg(feature = "serde")]
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -8,14 +7,12 @@
     reason = "a test that cannot go on says where"
 )]
 
-mod scene_support;
-
+use crate::scene_support::{check_lossless, fault_lines, with_attributes};
 use dsr_core::scene::{Scene, Strictness};
 use dsr_core::{
     Author, Dictionary, NewVertex, ReplicaId, State, Value, ValueType, VertexId, VertexLink, add_vertex, view,
 };
 use proptest::prelude::*;
-use scene_support::{check_lossless, fault_lines, with_attributes};
 use std::collections::BTreeMap;
 
 fn any_f32() -> impl Strategy<Value = f32> {

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
 
 use dsr_core::{Dot, State, check_well_formed, invariant};
-use dsr_testkit::{Anchors, Fate, Universe, fates, parse_state, state, states};
+use dsr_testkit::{Anchors, Fate, Universe, cases, fates, parse_state, state, states};
 use proptest::prelude::*;
 
 /// Small universes in which everything that closure and join can do occurs.
@@ -121,7 +121,7 @@ fn expected_join(universe: &Universe, left: &[Fate], right: &[Fate]) -> Vec<Fate
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(cases(10_000))]
 
     /// `[spec: JOIN-3]`
     #[test]

@@ -1,6 +1,5 @@
 //! Scenes of any state: conflicts, repairs, vertices that no file ever had.
 
-#![cfg(feature = "serde")]
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -8,14 +7,12 @@
     reason = "a test that cannot go on says where"
 )]
 
-mod scene_support;
-
+use crate::scene_support::{check_lossless, link, scene, symbol};
 use dsr_core::scene::{Note, Scene, Strictness, TINY};
 use dsr_core::{
     Author, Delta, Dictionary, EdgeKey, ElementId, NewVertex, ReplicaId, State, VertexId, VertexLink,
     add_edge, add_vertex, remove_vertex, update_attributes, view,
 };
-use scene_support::{check_lossless, link, scene, symbol};
 
 fn author(agent: u32) -> Author {
     Author::new(ReplicaId::agent(agent))

@@ -2,10 +2,8 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 
-mod clauses_common;
-
-use clauses_common::history::{history, parts};
-use clauses_common::*;
+use crate::clauses_common::history::{history, parts};
+use crate::clauses_common::*;
 use dsr_core::{Delta, Dot, Run, State, VertexId, check_well_formed, delta_for, digest, fingerprint};
 use std::collections::BTreeSet;
 

@@ -2,10 +2,8 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 
-mod clauses_common;
-
-use clauses_common::history::{history, part, parts};
-use clauses_common::*;
+use crate::clauses_common::history::{history, part, parts};
+use crate::clauses_common::*;
 use dsr_core::{
     CausalContext, Delta, Dictionary, Dot, Edge, Malformed, Record, ReplicaId, Run, State, Value, Vertex,
     VertexId, Write, check_well_formed, limits,

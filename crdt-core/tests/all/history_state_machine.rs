@@ -6,7 +6,7 @@ use dsr_core::{
     Delta, Dictionary, State, check_well_formed, decode, delta_for, digest, encode, fingerprint, invariant,
     view,
 };
-use dsr_testkit::{Step, World, author, dictionary, history};
+use dsr_testkit::{Step, World, author, cases, dictionary, history};
 use proptest::prelude::*;
 use proptest_state_machine::{ReferenceStateMachine, StateMachineTest, prop_state_machine};
 
@@ -132,7 +132,7 @@ impl StateMachineTest for Replicas {
 }
 
 prop_state_machine! {
-    #![proptest_config(ProptestConfig { cases: 1500, ..ProptestConfig::default() })]
+    #![proptest_config(cases(1500))]
 
     /// `[spec: JOIN-5]` `[spec: SYNC-5]` `[spec: STATE-3]` `[spec: STATE-6]` `[spec: CTX-2]`
     #[test]

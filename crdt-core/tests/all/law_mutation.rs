@@ -6,7 +6,7 @@ use dsr_core::{
     AttributeMap, Author, Delta, Dot, EdgeKey, Mutation, MutationKind, Record, ReplicaId, State, View,
     check_well_formed, decode, encode, invariant, view,
 };
-use dsr_testkit::{Anchors, History, World, candidates, dictionary, histories, states};
+use dsr_testkit::{Anchors, History, World, candidates, cases, dictionary, histories, states};
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::strategy::ValueTree;
@@ -144,7 +144,7 @@ fn authors() -> impl Strategy<Value = Author> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(6000))]
+    #![proptest_config(cases(6000))]
 
     /// On states of hostile shape. `[spec: MUT-0]` `[spec: MUT-0.1]` `[spec: MUT-0.2]` `[spec: INTENT-1]`
     /// `[spec: STAMP-1]` `[spec: STAMP-3]`

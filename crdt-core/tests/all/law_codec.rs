@@ -6,10 +6,10 @@ use dsr_core::{
     CausalContext, DecodeError, Digest, Dot, Record, ReplicaId, Run, State, Value, Write, check_well_formed,
     decode, decode_digest, digest, encode, encode_digest, limits,
 };
-use dsr_testkit::{Anchors, state, states, universes};
+use dsr_testkit::{Anchors, cases, state, states, universes};
 use proptest::prelude::*;
 
-const CHAPTER: &str = include_str!("../../spec/encoding.md");
+const CHAPTER: &str = include_str!("../../../spec/encoding.md");
 
 /// The text between the fence of a language and its end.
 fn fenced(language: &str) -> &'static str {
@@ -92,7 +92,7 @@ fn law_every_string_of_small_bytes_is_canonical_or_refused() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(8000))]
+    #![proptest_config(cases(8000))]
 
     /// `[spec: ENC-1]` `[spec: ENC-7]` `[spec: ENC-8]` `[spec: ENC-11]`
     #[test]

@@ -1,6 +1,5 @@
 //! The published system's own scenes, where they are at hand, and the scenes that ship with the crate.
 
-#![cfg(feature = "serde")]
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -8,11 +7,9 @@
     reason = "a test that cannot go on says where"
 )]
 
-mod scene_support;
-
+use crate::scene_support::check_lossless;
 use dsr_core::scene::{FLAT, FaultKind, Scene, Strictness, TINY};
 use dsr_core::{Dictionary, Record, ValueType, view};
-use scene_support::check_lossless;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 

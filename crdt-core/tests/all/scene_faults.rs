@@ -1,6 +1,5 @@
 //! Every fault of a graph: told with its place when read strictly, dropped and listed when read leniently.
 
-#![cfg(feature = "serde")]
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -8,11 +7,9 @@
     reason = "a test that cannot go on says where"
 )]
 
-mod scene_support;
-
+use crate::scene_support::{check_lossless, fault_lines, faults, link, scene, symbol, with_attributes};
 use dsr_core::scene::{FaultKind, Scene, Strictness};
 use dsr_core::{Dictionary, ValueType, view};
-use scene_support::{check_lossless, fault_lines, faults, link, scene, symbol, with_attributes};
 
 /// Reads leniently; what is left is sound, and these are its vertices' names, joined.
 #[track_caller]

@@ -2,10 +2,8 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 
-mod clauses_common;
-
-use clauses_common::history::{history, part, parts};
-use clauses_common::*;
+use crate::clauses_common::history::{history, part, parts};
+use crate::clauses_common::*;
 use dsr_core::invariant::{check_repairs, check_view};
 use dsr_core::{
     AttributeMap, Dictionary, Dot, Edge, EdgeId, Mutation, MutationKind, Placement, RT, Record, Repair,

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
 
 use dsr_core::{Dictionary, MutationKind, State, ValueType, VertexId, decode, encode, invariant, view};
-use dsr_testkit::{Anchors, Step, Universe, World, dictionary, history, state, states};
+use dsr_testkit::{Anchors, Step, Universe, World, cases, dictionary, history, state, states};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
@@ -59,7 +59,7 @@ fn law_invariants_on_every_state_of_small_universes() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(8000))]
+    #![proptest_config(cases(8000))]
 
     /// `[spec: VIEW-1]` `[spec: VIEW-9]` `[spec: VIEW-10]`
     #[test]

@@ -2,16 +2,14 @@
 //! deltas late, early, twice, lost, and resynchronisation. After every step they agree.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
 
-mod replica_support;
-
+use crate::replica_support::Pair;
 use dsr_core::{
     AttributeMap, AttributeUpdates, Delta, EdgeKey, ElementId, Mutation, MutationKind, NewVertex, Replica,
     ReplicaId, State, Value, VertexId, VertexLink, view,
 };
-use dsr_testkit::{Step, attempt, candidates, dictionary, history};
+use dsr_testkit::{Step, attempt, candidates, cases, dictionary, history};
 use proptest::collection::vec;
 use proptest::prelude::*;
-use replica_support::Pair;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Replicas `r1`, `r2`, …, each beside its reference, and all deltas sent.
@@ -93,7 +91,7 @@ impl Pairs {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(600))]
+    #![proptest_config(cases(600))]
 
     /// `[spec: REPLICA-1]` `[spec: EVENT-1]` `[spec: EVENT-2]` `[spec: EVENT-3]` `[spec: EVENT-4]`
     #[test]

@@ -1,13 +1,12 @@
 //! The JSON forms: what is written is read back, one value has one text, and a text that spells no
 //! well-formed state is refused.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
-#![cfg(feature = "serde")]
 
 use dsr_core::{
     Author, CausalContext, Digest, MutationKind, Record, Repair, ReplicaId, State, decode, digest, encode,
     view,
 };
-use dsr_testkit::{Anchors, atoms, candidates, dictionary, state, states};
+use dsr_testkit::{Anchors, atoms, candidates, cases, dictionary, state, states};
 use proptest::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -31,7 +30,7 @@ fn check_round_trip<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: 
 /// `[spec: JSON-1]` `[spec: JSON-10]` `[spec: JSON-11]` `[spec: JSON-12]`
 #[test]
 fn law_the_example_of_the_chapter_is_what_is_written() {
-    let chapter = include_str!("../../spec/encoding.md");
+    let chapter = include_str!("../../../spec/encoding.md");
     let example = chapter.split_once("```json\n").unwrap().1.split_once("```").unwrap().0;
     let spelt = state(
         "r1.1 vertex room kitchen @1
@@ -45,7 +44,7 @@ fn law_the_example_of_the_chapter_is_what_is_written() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(3000))]
+    #![proptest_config(cases(3000))]
 
     /// `[spec: JSON-1]` `[spec: JSON-3]` `[spec: JSON-12]` `[spec: JSON-13]`
     #[test]

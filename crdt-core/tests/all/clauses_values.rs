@@ -2,9 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 
-mod clauses_common;
-
-use clauses_common::*;
+use crate::clauses_common::*;
 use dsr_core::{
     AddVertexError, Dictionary, NewEdgeError, RT, Record, UpdateAttributesError, Value, ValueType,
 };

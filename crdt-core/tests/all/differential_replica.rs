@@ -1,15 +1,13 @@
 //! The replica and the readable reference agree, after every step, on states, views, changes and errors.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
 
-mod replica_support;
-
+use crate::replica_support::Pair;
 use dsr_core::{
     Dictionary, Dot, Edge, MutationKind, Record, ReplicaId, State, ValueType, Vertex, VertexId, view,
 };
-use dsr_testkit::{Anchors, Fate, Universe, candidates, dictionary, state, states};
+use dsr_testkit::{Anchors, Fate, Universe, candidates, cases, dictionary, state, states};
 use proptest::collection::vec;
 use proptest::prelude::*;
-use replica_support::Pair;
 
 /// Open, open with functional and typed names, closed to almost everything.
 fn dictionaries() -> [Dictionary; 3] {
@@ -167,7 +165,7 @@ fn regress_ends_that_share_a_mix() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(3000))]
+    #![proptest_config(cases(3000))]
 
     /// Hostile states, one joined after the other. `[spec: REPLICA-1]` `[spec: EVENT-1]`
     #[test]

@@ -2,9 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 
-mod clauses_common;
-
-use clauses_common::*;
+use crate::clauses_common::*;
 use dsr_core::{
     AddEdgeError, AddVertexError, AttributeError, AttributeMap, AttributeUpdates, Author, CausalContext,
     Delta, Dictionary, Dot, EdgeId, ElementId, ExhaustedError, MoveEdgeError, Mutation, MutationError,

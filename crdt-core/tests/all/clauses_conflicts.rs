@@ -3,9 +3,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 
-mod clauses_common;
-
-use clauses_common::*;
+use crate::clauses_common::*;
 use dsr_core::{AttributeMap, Mutation, Placement, RT, Repair, Value, VertexId};
 
 fn named(peer: &Peer, name: &str) -> VertexId {
