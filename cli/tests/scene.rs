@@ -77,7 +77,7 @@ fn law_check_reports_as_json() {
 
 #[test]
 fn law_wrong_usage_and_unreadable_input_end_in_status_3() {
-    let cases: [(&[&str], &[u8], &str); 15] = [
+    let cases: [(&[&str], &[u8], &str); 16] = [
         (&[], b"", "Usage: dsr <COMMAND>"),
         (&["scene"], b"", "Usage: dsr scene <COMMAND>"),
         (&["scene", "bogus"], b"", "unrecognized subcommand 'bogus'"),

@@ -1,7 +1,5 @@
 //! Replicas and their readable references live through the same histories: mutations allowed and refused,
 //! deltas late, early, twice, lost, and resynchronisation. After every step they agree.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
-
 use crate::replica_support::Pair;
 use dsr_core::{
     AttributeMap, AttributeUpdates, Delta, EdgeKey, ElementId, Mutation, MutationKind, NewVertex, Replica,

@@ -1,7 +1,5 @@
 //! The encodings: what is written is read back, what is read is what would be written, and nothing that
 //! anybody sends does harm.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
-
 use dsr_core::{
     CausalContext, DecodeError, Digest, Dot, Record, ReplicaId, Run, State, Value, Write, check_well_formed,
     decode, decode_digest, digest, encode, encode_digest, limits,
