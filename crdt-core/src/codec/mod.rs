@@ -15,7 +15,7 @@
 //! let link = VertexLink::child_of(VertexId::ROOT);
 //! let delta = add_vertex(&view(&nothing, &dictionary), author, &NewVertex::new("room", "kitchen"), &link)?;
 //! let bytes = encode(&delta);
-//! assert_eq!(bytes.len(), 26);
+//! assert_eq!(bytes.len(), 28);
 //! assert_eq!(decode(&bytes).as_ref(), Ok(&delta));
 //! # Ok::<(), AddVertexError>(())
 //! ```
