@@ -38,6 +38,7 @@ pub(crate) const HISTORY: &[&str] = &[
     "refused-add_vertex-Link.UnknownVertex",
     "refused-add_vertex-NameTaken",
     "refused-add_vertex-UndeclaredType",
+    "refused-move_edge-Attribute.WrongType",
     "refused-move_edge-Edge.Cycle",
     "refused-move_edge-Edge.FunctionalTaken",
     "refused-move_edge-Edge.HasParent",
