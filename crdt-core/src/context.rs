@@ -382,6 +382,10 @@ mod tests {
             let within: Vec<Dot> = left.0.runs_within(run).flat_map(Run::dots).collect();
             assert_eq!(within, left.1.iter().copied().filter(|&dot| run.contains(dot)).collect::<Vec<_>>());
             assert_eq!(left.0.contains_run(run), within.len() as u64 == length + 1);
+            for at in run.first - 1..=run.last + 1 {
+                let dot = Dot::new(replica, at);
+                assert_eq!(left.0.contains(dot), left.1.contains(&dot));
+            }
             assert_eq!(left.0.includes(&right.0), left.1.is_superset(&right.1));
             if round % 50 == 0 {
                 let mut joined = left.0.clone();

@@ -255,4 +255,23 @@ mod tests {
             Verdict::Violated
         );
     }
+
+    /// People and programs read the same word.
+    #[test]
+    fn law_a_verdict_has_one_name() {
+        for verdict in [Verdict::Exhaustive, Verdict::Bounded, Verdict::Vacuous, Verdict::Violated] {
+            assert_eq!(serde_json::to_value(verdict).unwrap(), verdict.name());
+            assert_eq!(format!("{verdict:>12}|"), format!("{:>12}|", verdict.name()));
+        }
+    }
+
+    /// Half of the square of the number, over the number of fingerprints.
+    #[test]
+    fn oracle_the_chance_of_a_collision_is_that_of_birthdays() {
+        let bound = |unique| collision_bound(unique).to_bits();
+        assert_eq!(bound(0), 0f64.to_bits());
+        assert_eq!(bound(1 << 32), 0.5f64.to_bits());
+        assert_eq!(bound(1 << 31), 0.125f64.to_bits());
+        assert_eq!(bound(3 << 20), (9.0 * 2f64.powi(-25)).to_bits());
+    }
 }

@@ -6,7 +6,7 @@ use dsr_core::{
     Delta, Dictionary, Dot, EdgeId, ElementId, ExhaustedError, MoveEdgeError, Mutation, MutationError,
     MutationKind, NewEdgeError, NewVertex, Placement, RT, Record, RemoveEdgeError, RemoveVertexError,
     ReplicaId, State, StrandError, UpdateAttributesError, Value, ValueType, Vertex, VertexId, VertexLink,
-    delta_for, digest, limits,
+    check_well_formed, delta_for, digest, limits,
 };
 
 /// Refused with exactly this error. Mutations are functions of a view, so nothing can have changed.
@@ -608,6 +608,71 @@ fn oracle_counters_run_out_with_an_error() {
     refused(&late, &to, MoveEdgeError::from(error));
     assert!(late.attempt(&remove(key(flat.drone, "sees", flat.hall))).is_ok());
     assert!(late.attempt(&destroy(flat.drone)).is_ok());
+}
+
+/// With as many dots left as a mutation makes records it is allowed, with one less it is not; the last stamp can be used.
+/// [spec: MUT-0.3] [spec: LIMIT-5] [spec: LIMIT-6]
+#[test]
+fn law_the_last_dots_and_the_last_stamp_can_be_used() {
+    let flat = flat();
+    let given = [("light", Value::Int(1)), ("heat", Value::Int(2))];
+    let replica = ReplicaId::agent(9);
+    let mutations = [
+        with_attributes(child(ROOT, "x"), &given),
+        Mutation::AddVertex {
+            vertex: NewVertex::new("thing", "x"),
+            link: VertexLink {
+                attributes: [("far".into(), Value::Int(3))].into(),
+                ..VertexLink::child_of(ROOT)
+            },
+        },
+        with_attributes(edge(flat.drone, "in", flat.hall), &given),
+        with_attributes(
+            relocate(key(flat.drone, "sees", flat.hall), key(flat.drone, "sees", flat.lamp)),
+            &given,
+        ),
+        Mutation::UpdateAttributes {
+            target: of(flat.hall),
+            updates: given.iter().map(|(name, value)| ((*name).into(), Some(value.clone()))).collect(),
+        },
+    ];
+    for mutation in mutations {
+        let records = flat.base.attempt(&mutation).unwrap().len() as u64;
+        for left in 0..=records + 1 {
+            let mut used = CausalContext::new();
+            used.insert_prefix(replica, limits::SEQUENCE_MAX - left);
+            let mut peer = flat.base.clone();
+            peer.author = Author::new(replica);
+            peer.state.join(&State::assemble([], used));
+            match peer.attempt(&mutation) {
+                Ok(delta) => assert!(left >= records && check_well_formed(&delta).is_ok()),
+                Err(error) => {
+                    assert!(left < records && error.kind() == "Exhausted.Sequences", "{left}: {error}")
+                }
+            }
+        }
+        let mut peer = flat.base.clone();
+        let (vertex_type, name) = ("t".into(), "n".into());
+        let last = Vertex { vertex_type, name, external_id: None, stamp: limits::STAMP_MAX - 1 };
+        peer.state
+            .join(&State::assemble([(dot(7, 1), Record::Vertex(last))], [dot(7, 1)].into_iter().collect()));
+        assert_eq!(peer.attempt(&mutation).unwrap().greatest_stamp(), limits::STAMP_MAX);
+    }
+}
+
+/// [spec: MUT-4.2]
+#[test]
+fn law_who_would_be_stranded_is_told_by_name_up_to_five_and_then_counted() {
+    let told = |count: u64| {
+        let vertices = (1..=count).map(|n| VertexId(dot(1, n))).collect();
+        StrandError { vertices }.to_string()
+    };
+    assert_eq!(told(1), "this would strand r1.1: move or remove them first");
+    assert_eq!(told(5), "this would strand r1.1, r1.2, r1.3, r1.4, r1.5: move or remove them first");
+    assert_eq!(
+        told(7),
+        "this would strand r1.1, r1.2, r1.3, r1.4, r1.5 and 2 more: move or remove them first"
+    );
 }
 
 /// A move that needs more dots than are left is refused for that, before its new edge is looked at; and who has neither dots

@@ -141,6 +141,8 @@ mod tests {
     struct Path {
         asked: u64,
         second_sees: u64,
+        /// The node that breaks a clause.
+        broken: Option<u64>,
     }
 
     impl Space for Path {
@@ -159,8 +161,8 @@ mod tests {
             Ok(())
         }
 
-        fn judge(&mut self, _: &u64) -> Result<(), Breach> {
-            Ok(())
+        fn judge(&mut self, at: &u64) -> Result<(), Breach> {
+            if self.broken == Some(*at) { Err(Breach::new("A", format!("at {at}"))) } else { Ok(()) }
         }
 
         fn depth(&self, at: &u64) -> usize {
@@ -179,7 +181,7 @@ mod tests {
     fn verdict(second_sees: u64, seconds_max: f64) -> (Verdict, Vec<String>) {
         let limits = crate::progress::Limits { seconds_max, ..crate::progress::Limits::default() };
         let progress = Arc::new(Progress::new(limits));
-        let (_, found) = search(Path { asked: 0, second_sees }, true, &progress);
+        let (_, found) = search(Path { asked: 0, second_sees, broken: None }, true, &progress);
         let (clauses, seen, states) = (Vec::new(), Vec::new(), StateCounts::default());
         let findings = Findings { nodes: "nodes", clauses, seen, states, breach: None };
         let run = found.report(findings, RunReport::new("path".into(), "L1", "none".into(), 0.0));
@@ -194,5 +196,77 @@ mod tests {
         assert_eq!(broken, Verdict::Violated);
         assert!(notes[0].starts_with("[CHECK-9] stateright counts 10 unique"), "{notes:?}");
         assert_eq!(verdict(10, 0.0).0, Verdict::Bounded);
+    }
+
+    const CLAUSES: [Clause; 2] =
+        [Clause { id: "A", claim: "L1", what: "one" }, Clause { id: "B", claim: "L3", what: "two" }];
+
+    /// The report on a search that has to see a hare and a hedgehog, and that judges two clauses.
+    fn report(broken: Option<u64>, seconds_max: f64, second_engine: bool, hare: bool) -> RunReport {
+        let limits = crate::progress::Limits { seconds_max, ..crate::progress::Limits::default() };
+        let progress = Arc::new(Progress::new(limits));
+        let (_, found) = search(Path { asked: 0, second_sees: 10, broken }, second_engine, &progress);
+        let breach = found.fault().cloned();
+        assert_eq!(breach.is_some(), broken.is_some());
+        let seen = vec![("a hare".into(), hare), ("a hedgehog".into(), true)];
+        let states = StateCounts { judged: 5, ..StateCounts::default() };
+        let findings = Findings { nodes: "nodes", clauses: CLAUSES.to_vec(), seen, states, breach };
+        let mut run = RunReport::new("path".into(), "L1", "none".into(), 1e6);
+        run.notes.push("noted before".into());
+        found.report(findings, run)
+    }
+
+    /// The verdicts on both clauses, then on both witnesses.
+    fn verdicts(report: &RunReport) -> Vec<Verdict> {
+        let kinds: Vec<PropertyKind> = report.properties.iter().map(|property| property.kind).collect();
+        let (always, sometimes) = (PropertyKind::Always, PropertyKind::Sometimes);
+        assert_eq!(kinds, [always, always, sometimes, sometimes]);
+        let names: Vec<&str> = report.properties.iter().map(|property| property.clause.as_str()).collect();
+        assert_eq!(names, ["A", "B", "a hare", "a hedgehog"]);
+        report.properties.iter().map(|property| property.verdict).collect()
+    }
+
+    /// What is shown of each property, by what became of the run. `[spec: CHECK-1]` `[spec: CHECK-10]`
+    #[test]
+    fn oracle_a_report_says_no_more_than_the_run_has_shown() {
+        use Verdict::{Bounded, Exhaustive, Vacuous, Violated};
+        let without_limit = f64::INFINITY;
+        let sound = report(None, without_limit, true, true);
+        assert_eq!((sound.verdict, verdicts(&sound)), (Exhaustive, vec![Exhaustive; 4]));
+        assert_eq!(sound.notes, ["noted before"]);
+        let vacuous = report(None, without_limit, true, false);
+        assert_eq!(
+            (vacuous.verdict, verdicts(&vacuous)),
+            (Vacuous, vec![Exhaustive, Exhaustive, Vacuous, Exhaustive])
+        );
+        let cut = report(None, 0.0, true, false);
+        assert_eq!((cut.verdict, verdicts(&cut)), (Bounded, vec![Bounded, Bounded, Bounded, Exhaustive]));
+        assert_eq!(cut.notes.len(), 2);
+        assert!(cut.notes[1].starts_with("stopped after 0 nodes"), "{:?}", cut.notes);
+        for hare in [true, false] {
+            let broken = report(Some(5), without_limit, true, hare);
+            let seen = if hare { Exhaustive } else { Bounded };
+            assert_eq!(
+                (broken.verdict, verdicts(&broken)),
+                (Violated, vec![Violated, Bounded, seen, Exhaustive])
+            );
+            assert_eq!(broken.notes.last().map(String::as_str), Some("[A] at 5"));
+        }
+    }
+
+    /// Both engines' counts are in the report, and the second is asked only where the first came to its end and found
+    /// nothing. `[spec: CHECK-9]`
+    #[test]
+    fn oracle_a_report_has_the_counts_of_the_engines_that_were_asked() {
+        let counted =
+            |report: &RunReport| report.second_engine.map(|counts| (counts.unique, counts.generated));
+        let both = report(None, f64::INFINITY, true, true);
+        assert_eq!((both.states.unique, both.states.generated, both.states.judged), (10, 9, 5));
+        assert_eq!(counted(&both), Some((10, 9)));
+        assert_eq!(both.collision_bound.to_bits(), collision_bound(10).to_bits());
+        assert!(both.search_seconds < both.seconds);
+        assert_eq!(counted(&report(None, f64::INFINITY, false, true)), None);
+        assert_eq!(counted(&report(Some(5), f64::INFINITY, true, true)), None);
+        assert_eq!(counted(&report(None, 0.0, true, true)), None);
     }
 }
