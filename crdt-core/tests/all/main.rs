@@ -1,6 +1,7 @@
 //! The tests of the core against its public face, in one program: linking twenty would cost more than running them.
 //! A test that needs the process for itself has a file of its own beside this folder.
 
+mod canary_invariants;
 mod clauses_common;
 mod clauses_conflicts;
 mod clauses_events;
