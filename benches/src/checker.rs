@@ -1,14 +1,15 @@
-//! How many states the checker makes in a second.
+//! How many states the checker makes in a second, on the readable reference and on the fast replica.
 
 use crate::error::{BenchError, Result};
 use crate::stopwatch::now_ns;
 use dsr_core::scene::{FLAT, Scene, Strictness};
 use dsr_core::{Dictionary, MutationKind};
-use dsr_model::histories::Bound;
+use dsr_model::histories::{Bound, HistoryRun};
 use dsr_model::job::Job;
 use dsr_model::progress::{Limits, Progress};
 use dsr_model::schedules::{ScheduleBound, ScheduleRun};
 use dsr_model::suite::{FLAT_FOCUS, Subject};
+use dsr_model::twin::Twin;
 use dsr_model::verdict::{RunReport, Verdict};
 use std::sync::Arc;
 
@@ -21,6 +22,16 @@ pub struct Pace {
     pub per_second: f64,
 }
 
+/// What the pace of the fast replica is called by.
+const FAST: &str = "fast replica";
+
+/// What the fast replica makes of the reference's pace, in the run that both have done.
+pub fn fast_by_reference(paces: &[Pace]) -> Option<f64> {
+    let fast = paces.iter().find(|pace| pace.id.ends_with(FAST))?;
+    let reference = paces.iter().find(|pace| fast.id == format!("{}, {FAST}", pace.id))?;
+    Some(fast.per_second / reference.per_second)
+}
+
 /// The paces of histories (L1) and of schedules (L2), on the embedded flat.
 pub fn paces() -> Result<Vec<Pace>> {
     let dictionary = Dictionary::aal();
@@ -31,7 +42,15 @@ pub fn paces() -> Result<Vec<Pace>> {
     let bound = Bound { replicas: 3, mutations: 1 };
     let mut histories = subject.histories(4, bound, &MutationKind::ALL).map_err(failed)?;
     histories.second_engine = false;
-    let mut paces = vec![pace(&histories)?];
+    let fast = HistoryRun {
+        name: format!("{}, {FAST}", histories.name),
+        semantics: Arc::new(Twin::alone((*histories.semantics).clone())),
+        focus: histories.focus,
+        bound,
+        symmetry: histories.symmetry,
+        second_engine: false,
+    };
+    let mut paces = vec![pace(&histories)?, pace(&fast)?];
     let once = Bound { replicas: 2, mutations: 1 };
     let focused = subject.histories(2, once, &MutationKind::ALL).map_err(failed)?;
     let schedules = ScheduleRun {

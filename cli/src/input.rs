@@ -110,11 +110,11 @@ pub(crate) fn text(file: &str, max: usize, form: &'static str) -> Result<String,
     text_of(bytes_of(file, max, form)?)
 }
 
-/// What bytes hold: a binary state starts with a byte that no text starts with, and a JSON state with a key
-/// that no scene has.
+/// What bytes hold: a binary state or digest of any version starts with a byte that no text starts with, and a
+/// JSON state with a key that no scene has. What is no state is refused by name, when it is read. `[spec: ENC-2]`
 fn form_of(bytes: &[u8]) -> Form {
-    const VERSION: u8 = 1;
-    if bytes.first() == Some(&VERSION) {
+    let starts_no_text = |&byte: &u8| byte < b' ' && !byte.is_ascii_whitespace();
+    if bytes.first().is_some_and(starts_no_text) {
         return Form::Binary;
     }
     let inside = bytes.trim_ascii_start().strip_prefix(b"{").unwrap_or_default().trim_ascii_start();

@@ -77,7 +77,7 @@ fn law_check_reports_as_json() {
 
 #[test]
 fn law_wrong_usage_and_unreadable_input_end_in_status_3() {
-    let cases: [(&[&str], &[u8], &str); 15] = [
+    let cases: [(&[&str], &[u8], &str); 16] = [
         (&[], b"", "Usage: dsr <COMMAND>"),
         (&["scene"], b"", "Usage: dsr scene <COMMAND>"),
         (&["scene", "bogus"], b"", "unrecognized subcommand 'bogus'"),
@@ -88,7 +88,8 @@ fn law_wrong_usage_and_unreadable_input_end_in_status_3() {
         (&["scene", "check", "-"], b"{\"DSR", "-:1:6: not JSON: the file ends in the middle"),
         (&["scene", "check", "-"], b"{\n \xff}", "-: line 2, column 2: not UTF-8 text"),
         (&["scene", "check", "-"], b"[]", "older array form"),
-        (&["scene", "check", "-"], b"\x01\x00\xff", "-: not a binary state"),
+        (&["scene", "check", "-"], b"\x02\x00\xff", "-: not a binary state"),
+        (&["scene", "check", "-"], b"\x01\x00\xff", "-: not a binary state: version 1; "),
         (&["scene", "check", "-"], b"{\"context\": 5}", "-: not a state"),
         (&["scene", "check", "@tiny", "--dictionary", "-"], b"{\"closed\": 1}", "-: not a dictionary"),
         (

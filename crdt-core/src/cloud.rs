@@ -89,7 +89,7 @@ impl Cloud {
     }
 
     /// All runs.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = Run> + '_ {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = Run> + Clone + '_ {
         let (list, tree) = match self {
             Self::Few(list) => (&list[..], None),
             Self::Many(tree) => (&[][..], Some(tree)),

@@ -165,7 +165,7 @@ impl CausalContext {
     }
 
     /// Every dot as maximal runs `(replica, first, last)`, in order. `[spec: CTX-4]`
-    pub fn runs(&self) -> impl Iterator<Item = Run> + '_ {
+    pub fn runs(&self) -> impl Iterator<Item = Run> + Clone + '_ {
         let mut prefixes = self.vector.iter().peekable();
         let mut cloud = self.cloud.iter().peekable();
         iter::from_fn(move || {

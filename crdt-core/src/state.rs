@@ -8,7 +8,6 @@ use crate::context::{CausalContext, Run};
 use crate::dot::{Dot, ReplicaId};
 use crate::record::{Edge, Rank, Record, Vertex, Write};
 use alloc::collections::BTreeMap;
-use alloc::collections::btree_map::Entry;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
@@ -21,6 +20,9 @@ pub struct State {
     store: BTreeMap<Dot, Arc<Record>>,
     context: CausalContext,
 }
+
+/// So many new records, if they are a good part of all, are not inserted one by one.
+const MANY: usize = 64;
 
 /// What a mutation returns and a network carries. `[spec: STATE-5]`
 pub type Delta = State;
@@ -35,6 +37,11 @@ impl State {
     /// [`check_well_formed`](crate::check_well_formed) before anything else.
     pub fn assemble(records: impl IntoIterator<Item = (Dot, Record)>, context: CausalContext) -> Self {
         Self { store: records.into_iter().map(|(dot, record)| (dot, Arc::new(record))).collect(), context }
+    }
+
+    /// [`assemble`](Self::assemble), of records that are shared already.
+    pub(crate) fn of_parts(records: Vec<(Dot, Arc<Record>)>, context: CausalContext) -> Self {
+        Self { store: records.into_iter().collect(), context }
     }
 
     /// Files a record under a dot that nobody has used yet.
@@ -159,22 +166,22 @@ impl State {
     /// merges into whom (`[spec: JOIN-2]`). Returns whether the result may need [`close`](Self::close).
     pub fn merge(&mut self, other: &Self) -> bool {
         let mut disturbed = self.drop_dead_in(other);
+        let context = &self.context;
+        let mut fresh = Vec::new();
         for (&dot, theirs) in &other.store {
-            match self.store.entry(dot) {
-                Entry::Occupied(mut ours) => {
-                    if ours.get() < theirs {
-                        ours.insert(theirs.clone());
-                        disturbed = true;
-                    }
-                }
-                Entry::Vacant(gap) => {
-                    if !self.context.contains(dot) {
-                        gap.insert(theirs.clone());
-                        let context = &self.context;
-                        disturbed |= theirs.anchors().any(|anchor| context.contains(anchor));
-                    }
-                }
+            if !context.contains(dot) {
+                disturbed |= theirs.anchors().any(|anchor| context.contains(anchor));
+                fresh.push((dot, Arc::clone(theirs)));
+            } else if let Some(ours) = self.store.get_mut(&dot).filter(|ours| **ours < *theirs) {
+                ours.clone_from(theirs);
+                disturbed = true;
             }
+        }
+        if fresh.len() > MANY.max(self.store.len() / 8) {
+            // In order already: one pass makes a tree of them, another one of both.
+            self.store.append(&mut fresh.into_iter().collect());
+        } else {
+            self.store.extend(fresh);
         }
         // A dot that arrives dead can be the anchor of a record that waits here.
         disturbed |=

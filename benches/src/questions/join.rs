@@ -3,6 +3,7 @@
 use super::{Question, sides};
 use crate::contest::Side;
 use crate::error::{Result, not_the_job};
+use crate::libraries::Dsr;
 use crate::scene::{Plan, Scene};
 use crate::stopwatch::time;
 use std::marker::PhantomData;
@@ -10,7 +11,7 @@ use std::marker::PhantomData;
 const SMALL: usize = 1000;
 const LARGE: usize = 100_000;
 
-pub(super) fn questions() -> [Question; 4] {
+pub(super) fn questions() -> [Question; 5] {
     [
         Question {
             id: "join/1000",
@@ -25,6 +26,14 @@ pub(super) fn questions() -> [Question; 4] {
             heavy: true,
             turns: 1,
             sides: sides!(large; Dsr, Yrs, Loro, AutomergeScene, Crdts),
+        },
+        Question {
+            id: "join/100000/states",
+            asks: "Their states alone are joined: the records and the dots, which is what converges. Ours keeps no \
+                   index, no view and no word about what has changed; the peers do what they did.",
+            heavy: true,
+            turns: 1,
+            sides: states,
         },
         Question {
             id: "late-join/1000",
@@ -58,6 +67,31 @@ fn join<S: Scene + 'static>(n: usize) -> Result<Side> {
         is_checked = true;
         Ok(ns)
     }))
+}
+
+/// The reference joins states; the peers have nothing beside theirs.
+fn states(question: &Question, is_wanted: &dyn Fn(&str) -> bool) -> Result<Vec<Side>> {
+    let mut sides = Vec::new();
+    if is_wanted(Dsr::NAME) {
+        let (mut left, mut right) = (Dsr::empty(1)?, Dsr::empty(2)?);
+        left.populate(&Plan::tree("left-", LARGE, 10))?;
+        right.populate(&Plan::tree("right-", LARGE, 10))?;
+        sides.push(Side::of::<Dsr>(move || {
+            let (mut joined, other) = (left.whole()?, right.whole()?);
+            let records = joined.len() + other.len();
+            let ns = time(1, |_| {
+                joined.join(&other);
+                Ok(())
+            })?;
+            if joined.len() == records {
+                Ok(ns)
+            } else {
+                not_the_job(Dsr::NAME, "the records of both to be there")
+            }
+        }));
+    }
+    sides.extend(sides!(large; Yrs, Loro, AutomergeScene, Crdts)(question, is_wanted)?);
+    Ok(sides)
 }
 
 fn late<S: Scene + 'static>(n: usize) -> Result<Side> {

@@ -58,6 +58,10 @@ pub enum Change {
 pub struct Changes(Vec<Change>);
 
 impl Changes {
+    pub(crate) fn one(change: Change) -> Self {
+        Self(Vec::from([change]))
+    }
+
     /// Whether what is shown is as it was.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
@@ -78,7 +82,8 @@ impl Changes {
 impl FromIterator<Change> for Changes {
     fn from_iter<I: IntoIterator<Item = Change>>(changes: I) -> Self {
         let mut changes: Vec<Change> = changes.into_iter().collect();
-        changes.sort_unstable();
+        // They come in a few ascending runs, which a stable sort merges.
+        changes.sort();
         Self(changes)
     }
 }

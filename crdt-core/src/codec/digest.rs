@@ -2,8 +2,8 @@
 
 use super::error::DecodeError;
 use super::reader::Reader;
+use super::replicas::{ReplicasRead, ReplicasWritten};
 use super::state::read_context;
-use super::tables::Replicas;
 use super::{KIND_DIGEST, runs, writer};
 use crate::context::Run;
 use crate::digest::Digest;
@@ -62,26 +62,28 @@ pub fn check_digest(digest: &Digest) -> Result<(), MalformedDigest> {
 ///
 /// Of what [`check_digest`] refuses it gives bytes that [`decode_digest`] refuses, or reads as another digest.
 pub fn encode_digest(digest: &Digest) -> Vec<u8> {
-    let context: Vec<Run> = digest.context.runs().collect();
-    let replicas = Replicas::of(context.iter().chain(&digest.live).map(|run| run.replica));
+    let context = digest.context.runs();
+    let live = digest.live.iter().copied();
+    let replicas = ReplicasWritten::of(context.clone().chain(live.clone()).map(|run| run.replica));
     let mut out = writer::begin(KIND_DIGEST);
     replicas.write(&mut out);
-    runs::write(&mut out, &replicas.ids, &context);
-    runs::write(&mut out, &replicas.ids, &digest.live);
+    runs::write(&mut out, &replicas.ids, context);
+    runs::write(&mut out, &replicas.ids, live);
     out
 }
 
 /// The digest that canonical bytes spell. Any bytes may be given. `[spec: ENC-11]` `[spec: ENC-10]`
 pub fn decode_digest(bytes: &[u8]) -> Result<Digest, DecodeError> {
     let mut reader = Reader::new(bytes, KIND_DIGEST)?;
-    let mut replicas = Replicas::read(&mut reader)?;
+    let mut replicas = ReplicasRead::read(&mut reader)?;
     let context = read_context(&mut reader, &mut replicas)?;
     let mut live = Vec::new();
-    let ids = replicas.ids.clone();
-    runs::read(&mut reader, &ids, |_, run| {
-        live.push(run);
-        Ok(())
-    })?;
+    for at in 0..replicas.len() {
+        runs::read(&mut reader, replicas.id(at), |_, run| {
+            live.push(run);
+            Ok(())
+        })?;
+    }
     reader.finish()?;
     replicas.check_used()?;
     let digest = Digest { context, live };

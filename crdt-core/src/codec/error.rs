@@ -1,6 +1,7 @@
 //! Why bytes are refused.
 
 use super::digest::MalformedDigest;
+use crate::dot::ReplicaId;
 use crate::limits;
 use crate::wellformed::Malformed;
 
@@ -15,20 +16,20 @@ pub enum DecodeError {
         /// How many.
         bytes: usize,
     },
-    /// The first byte is not this version's.
+    /// The first byte is not of this version.
     #[error("version {found}; this library reads version {}", super::VERSION)]
     Version {
-        /// The byte.
+        /// The version that it names.
         found: u8,
     },
-    /// A byte that says what follows is not one of those defined, or not the one asked for.
+    /// A number that says what follows is not one of those defined, or not the one asked for.
     #[error("at byte {offset}: {found} is no {what}")]
     Tag {
         /// Where.
         offset: usize,
-        /// What the byte should say.
+        /// What it should say.
         what: &'static str,
-        /// The byte.
+        /// The number.
         found: u8,
     },
     /// The bytes end too early, or a declared length is more than what remains.
@@ -92,6 +93,28 @@ pub enum DecodeError {
         what: &'static str,
         /// Which entry.
         index: usize,
+    },
+    /// A message's own table has a name of the static table. `[spec: ENC-6]`
+    #[error("at byte {offset}: {name} needs no entry: it is name {index} of the static table")]
+    Static {
+        /// Where the entry begins.
+        offset: usize,
+        /// The name.
+        name: &'static str,
+        /// Its index in the static table.
+        index: usize,
+    },
+    /// A record's dot lies beyond all that the context has seen of its replica. `[spec: ENC-8]`
+    #[error(
+        "at byte {offset}: {skip} dots of {replica} are passed over, and its context has seen no more after them"
+    )]
+    Unseen {
+        /// Where the record begins.
+        offset: usize,
+        /// Whose dot it is.
+        replica: ReplicaId,
+        /// How many dots it passes over.
+        skip: u64,
     },
     /// A table entry that nothing refers to.
     #[error("{what} {index} of the table is never used")]

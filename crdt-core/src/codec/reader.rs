@@ -1,7 +1,7 @@
 //! Reading bytes that nobody vouches for.
 
 use super::error::DecodeError;
-use super::{KIND_DIGEST, KIND_STATE, VERSION};
+use super::{KIND_DIGEST, KIND_STATE, VERSION, zigzag};
 use crate::limits;
 
 /// A position in bytes; every read checks what remains first.
@@ -18,18 +18,17 @@ impl<'b> Reader<'b> {
             return Err(DecodeError::TooLong { bytes: bytes.len() });
         }
         let mut reader = Self { bytes, offset: 0 };
-        let found = reader.byte()?;
-        if found != VERSION {
-            return Err(DecodeError::Version { found });
+        let first = reader.byte()?;
+        let (version, found) = (first & 0x0f, first >> 4);
+        if version != VERSION {
+            return Err(DecodeError::Version { found: version });
         }
-        let offset = reader.offset;
-        let found = reader.byte()?;
         if found == kind {
             return Ok(reader);
         }
         let what = if kind == KIND_STATE { "state" } else { "digest" };
         debug_assert!(kind == KIND_STATE || kind == KIND_DIGEST);
-        Err(DecodeError::Tag { offset, what, found })
+        Err(DecodeError::Tag { offset: 0, what, found })
     }
 
     /// Where the next read begins.
@@ -99,6 +98,13 @@ impl<'b> Reader<'b> {
         let offset = self.offset;
         let value = self.varint()?;
         if value > max { Err(DecodeError::TooGreat { offset, what, max }) } else { Ok(value) }
+    }
+
+    /// What differs from `before` as the next varint says, and is from then on what was before.
+    /// `[spec: ENC-8]`
+    pub(super) fn difference(&mut self, before: &mut u64) -> Result<u64, DecodeError> {
+        *before = before.wrapping_add(zigzag::unfold(self.varint()?).cast_unsigned());
+        Ok(*before)
     }
 
     /// How many items follow, at most `max` and each of at least `bytes_each` bytes: what is returned may be

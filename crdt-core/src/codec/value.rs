@@ -1,17 +1,17 @@
-//! Attribute values: a type number, then the payload. `[spec: ENC-7]`
+//! Attribute values. Their types stand in front of them: see the records. `[spec: ENC-7]`
 
 use super::error::DecodeError;
 use super::reader::Reader;
-use super::writer;
+use super::{writer, zigzag};
 use crate::limits;
 use crate::value::{Value, ValueType};
 use alloc::vec::Vec;
 
+/// The payload of a value.
 pub(super) fn write(out: &mut Vec<u8>, value: &Value) {
-    out.push(value.value_type().number());
     match value {
         Value::String(text) => writer::bytes(out, text.as_bytes()),
-        Value::Int(item) => writer::varint(out, zigzag(*item).into()),
+        Value::Int(item) => writer::varint(out, zigzag::fold((*item).into())),
         Value::Bool(item) => out.push(u8::from(*item)),
         Value::ByteVec(bytes) => writer::bytes(out, bytes),
         Value::UInt(item) => writer::varint(out, (*item).into()),
@@ -39,16 +39,14 @@ fn floats(out: &mut Vec<u8>, items: &[f32]) {
     }
 }
 
-pub(super) fn read(reader: &mut Reader<'_>) -> Result<Value, DecodeError> {
-    let offset = reader.offset();
-    let found = reader.byte()?;
-    let tag = DecodeError::Tag { offset, what: "value type", found };
-    Ok(match ValueType::from_number(found).ok_or(tag)? {
+/// The value of a type whose payload follows.
+pub(super) fn read(reader: &mut Reader<'_>, value_type: ValueType) -> Result<Value, DecodeError> {
+    Ok(match value_type {
         ValueType::String => {
             let count = length(reader, 1)?;
             Value::String(reader.text(count)?.into())
         }
-        ValueType::Int => Value::Int(unzigzag(word(reader, "an int")?)),
+        ValueType::Int => Value::Int(int(reader)?),
         ValueType::Float => Value::Float(float(reader)?),
         ValueType::FloatVec => {
             let count = length(reader, size_of::<f32>())?;
@@ -60,7 +58,7 @@ pub(super) fn read(reader: &mut Reader<'_>) -> Result<Value, DecodeError> {
             let count = length(reader, 1)?;
             Value::ByteVec(reader.take(count)?.into())
         }
-        ValueType::UInt => Value::UInt(word(reader, "a uint")?),
+        ValueType::UInt => Value::UInt(word(reader)?),
         ValueType::UInt64 => Value::UInt64(reader.varint()?),
         ValueType::Double => Value::Double(f64::from_le_bytes(reader.array()?)),
         ValueType::U64Vec => {
@@ -101,32 +99,14 @@ fn truth(reader: &mut Reader<'_>) -> Result<bool, DecodeError> {
     }
 }
 
-fn word(reader: &mut Reader<'_>, what: &'static str) -> Result<u32, DecodeError> {
+fn int(reader: &mut Reader<'_>) -> Result<i32, DecodeError> {
     let offset = reader.offset();
-    u32::try_from(reader.varint()?).or(Err(DecodeError::TooGreat { offset, what, max: u32::MAX.into() }))
+    let (what, max) = ("an int", u32::MAX.into());
+    i32::try_from(zigzag::unfold(reader.varint()?)).or(Err(DecodeError::TooGreat { offset, what, max }))
 }
 
-/// Folds the sign into the lowest bit, so that small numbers stay short: 0, -1, 1, -2, … to 0, 1, 2, 3, …
-fn zigzag(item: i32) -> u32 {
-    ((item << 1) ^ (item >> 31)).cast_unsigned()
-}
-
-fn unzigzag(item: u32) -> i32 {
-    (item >> 1).cast_signed() ^ -(item & 1).cast_signed()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// `[spec: ENC-7]`
-    #[test]
-    fn law_zigzag_is_a_bijection_that_keeps_small_numbers_short() {
-        for (item, folded) in
-            [(0, 0), (-1, 1), (1, 2), (-2, 3), (i32::MAX, u32::MAX - 1), (i32::MIN, u32::MAX)]
-        {
-            assert_eq!(zigzag(item), folded);
-            assert_eq!(unzigzag(folded), item);
-        }
-    }
+fn word(reader: &mut Reader<'_>) -> Result<u32, DecodeError> {
+    let offset = reader.offset();
+    let (what, max) = ("a uint", u32::MAX.into());
+    u32::try_from(reader.varint()?).or(Err(DecodeError::TooGreat { offset, what, max }))
 }

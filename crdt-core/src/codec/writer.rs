@@ -1,6 +1,6 @@
 //! Writing bytes.
 
-use super::VERSION;
+use super::{VERSION, zigzag};
 use alloc::vec::Vec;
 
 /// Room for the delta of a usual mutation.
@@ -9,7 +9,7 @@ const BYTES_USUAL: usize = 64;
 /// Version and kind, ready for the rest. `[spec: ENC-2]`
 pub(super) fn begin(kind: u8) -> Vec<u8> {
     let mut out = Vec::with_capacity(BYTES_USUAL);
-    out.extend([VERSION, kind]);
+    out.push(VERSION | kind << 4);
     out
 }
 
@@ -22,6 +22,12 @@ pub(super) fn varint(out: &mut Vec<u8>, mut value: u64) {
     }
     #[allow(clippy::cast_possible_truncation, reason = "below 0x80")]
     out.push(value as u8);
+}
+
+/// How `value` differs from the one `before`, whose place it takes. `[spec: ENC-8]`
+pub(super) fn difference(out: &mut Vec<u8>, before: &mut u64, value: u64) {
+    varint(out, zigzag::fold(value.wrapping_sub(*before).cast_signed()));
+    *before = value;
 }
 
 /// How many items follow.

@@ -61,7 +61,8 @@ impl Settling<'_> {
     /// O(the writes of every register that is touched).
     pub(super) fn settle_attributes(&mut self, flips: &[Flip]) {
         let mut touched: Vec<Touched> = Vec::new();
-        let mut targets: BTreeSet<Dot> = flips.iter().map(|flip| flip.dot).collect();
+        let mut targets: BTreeSet<Dot> =
+            flips.iter().filter(|flip| self.waited || !flip.appears).map(|flip| flip.dot).collect();
         for gone in &self.gone {
             if let (Held::Write(at), Some(write)) = (&gone.held, &gone.write) {
                 touched.push((at.target, at.name, Some((gone.dot, write.stamp, write.exposure))));
@@ -72,7 +73,7 @@ impl Settling<'_> {
         for &(dot, kind) in &self.came {
             if let Came::Write(at) = kind {
                 touched.push((at.target, at.name, None));
-            } else {
+            } else if self.waited {
                 targets.insert(dot);
             }
         }

@@ -14,7 +14,7 @@ fn keys<K: Ord + Clone, V: Clone>(map: &super::map::Map<K, V>) -> BTreeSet<K> {
 
 impl Graph {
     /// What the indexes must hold, from the records alone.
-    fn check_indexes(&self) {
+    pub(super) fn check_indexes(&self) {
         let (mut claims, mut ends, mut loose) = (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
         let (mut named, mut typed, mut labelled) = (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
         let (mut writes, mut broken, mut stamps) = (BTreeSet::new(), BTreeSet::new(), BTreeMap::new());

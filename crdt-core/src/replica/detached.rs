@@ -10,6 +10,8 @@ impl Settling<'_> {
     pub(super) fn settle_detached(&mut self) {
         let mut tops = core::mem::take(&mut self.tops);
         tops.extend(self.gone_vertices().map(|(dot, _)| dot));
+        tops.sort_unstable();
+        tops.dedup();
         for top in tops {
             let was = self.graph.detached.contains(&top);
             let is = self.graph.vertex_held(top).is_some_and(|top| top.parent() == NONE && top.children > 0);

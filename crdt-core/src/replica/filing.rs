@@ -4,6 +4,7 @@ use super::graph::{Graph, hash_of};
 use super::held::{Exposure, Held, HeldEdge, HeldVertex, HeldWrite, Link, NONE, Status, WriteAt, mix};
 use super::settle::Came;
 use crate::dot::{Dot, VertexId};
+use crate::mutation::is_root_name;
 use crate::record::{Edge, Record, Vertex, Write};
 use alloc::vec::Vec;
 
@@ -22,7 +23,11 @@ impl Graph {
     /// Files a record in every index, shown as nothing yet.
     pub(super) fn file(&mut self, dot: Dot, record: &Record) -> Came {
         let (held, came) = match record {
-            Record::Vertex(vertex) => (Held::Vertex(self.file_vertex(dot, vertex)), Came::Vertex),
+            Record::Vertex(vertex) => {
+                // Beside the filing of the name, which looks at the same place.
+                let is_alone = !is_root_name(&vertex.name) && !self.is_named(&vertex.name);
+                (Held::Vertex(self.file_vertex(dot, vertex)), Came::Vertex { is_alone })
+            }
             Record::Edge(edge) => (Held::Edge(self.file_edge(dot, edge)), Came::Edge),
             Record::Write(write) => {
                 let at = self.file_write(dot, write);
@@ -38,11 +43,21 @@ impl Graph {
         if !matches!(record, Record::Write(_)) {
             self.settle_down(dot);
         }
-        let stamp = record.stamp();
-        if let Some(count) = self.stamps.insert(stamp, 1) {
-            self.stamps.insert(stamp, count + 1);
-        }
+        self.count_stamp(record.stamp());
         came
+    }
+
+    /// One more record of a stamp.
+    pub(super) fn count_stamp(&mut self, stamp: u64) {
+        self.stamps.upsert(stamp, 1, |count| *count += 1);
+    }
+
+    /// One record less of a stamp.
+    pub(super) fn discount_stamp(&mut self, stamp: u64) {
+        self.stamps.remove_if(&stamp, |count| {
+            *count -= 1;
+            *count == 0
+        });
     }
 
     /// Whether records can be anchored to a dot: the root, a vertex, an edge.
@@ -163,9 +178,7 @@ impl Graph {
                 self.loose.remove(&(anchor, dot));
             }
         }
-        if let Some(count) = self.stamps.remove(&stamp).filter(|count| *count > 1) {
-            self.stamps.insert(stamp, count - 1);
-        }
+        self.discount_stamp(stamp);
         Some(gone)
     }
 

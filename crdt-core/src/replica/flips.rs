@@ -3,7 +3,6 @@
 use super::held::{Held, HeldEdge, Status};
 use super::settle::{Came, Settling};
 use crate::dot::Dot;
-use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 /// An edge claim that has become visible or is no longer, as it was shown before.
@@ -24,7 +23,7 @@ impl Settling<'_> {
     /// or is left at one that was replaced, is among them.
     pub(super) fn flips(&self) -> Vec<Flip> {
         let mut flips = Vec::new();
-        let mut at = BTreeSet::new();
+        let mut at = Vec::new();
         for gone in &self.gone {
             match gone.held {
                 Held::Edge(edge) if edge.status != Status::Invisible => {
@@ -36,13 +35,13 @@ impl Settling<'_> {
         }
         for &(dot, kind) in &self.came {
             match kind {
-                Came::Edge => {
-                    at.insert(dot);
-                }
-                Came::Vertex => at.extend(self.graph.edges_at(dot)),
-                Came::Write(_) => {}
+                Came::Edge => at.push(dot),
+                Came::Vertex { .. } if self.waited => at.extend(self.graph.edges_at(dot)),
+                Came::Vertex { .. } | Came::Write(_) => {}
             }
         }
+        at.sort_unstable();
+        at.dedup();
         for dot in at {
             let Some(&edge) = self.graph.edge_held(dot) else { continue };
             let appears = self.graph.is_visible(&edge);

@@ -185,6 +185,12 @@ impl Graph {
         writes.take_while(move |(key, _)| (key.0, key.1) == (target, name)).map(|(key, write)| (key.2, write))
     }
 
+    /// Whether any vertex may have this name: one that has its hash.
+    pub(super) fn is_named(&self, name: &str) -> bool {
+        let hash = hash_of(name);
+        self.named.range(&(hash, NONE)).next().is_some_and(|(key, ())| key.0 == hash)
+    }
+
     /// The vertices of a name, by their dots.
     pub(super) fn namesakes<'g>(&'g self, name: &'g str) -> impl Iterator<Item = (Dot, &'g HeldVertex)> + 'g {
         let hash = hash_of(name);

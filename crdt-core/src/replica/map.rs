@@ -87,24 +87,39 @@ impl<K: Ord + Clone, V: Clone> Map<K, V> {
 
     /// Inserts; the value replaced.
     pub(crate) fn insert(&mut self, key: K, value: V) -> Option<V> {
+        self.insert_or(key, value, core::mem::replace)
+    }
+
+    /// Inserts, or changes what is there already.
+    pub(crate) fn upsert(&mut self, key: K, value: V, change: impl FnOnce(&mut V)) {
+        self.insert_or(key, value, |held, _| change(held));
+    }
+
+    /// Inserts, or lets `meet` deal with the value that is there; what it says.
+    fn insert_or<R>(&mut self, key: K, value: V, meet: impl FnOnce(&mut V, V) -> R) -> Option<R> {
         let root = Arc::make_mut(&mut self.root);
-        let (old, added) = root.insert(key, value);
+        let (answer, added) = root.insert(key, value, meet);
         if let Some((least, right)) = added {
             // The first key is not looked at: any will do.
             let left = core::mem::replace(&mut self.root, Arc::new(Node::Leaf(List::new())));
             let children = List { keys: Vec::from([least.clone(), least]), values: Vec::from([left, right]) };
             self.root = Arc::new(Node::Inner(children));
         }
-        self.len += usize::from(old.is_none());
-        old
+        self.len += usize::from(answer.is_none());
+        answer
     }
 
     /// Removes; the value that was there.
     pub(crate) fn remove(&mut self, key: &K) -> Option<V> {
+        self.remove_if(key, |_| true)
+    }
+
+    /// Removes what is there if it is to go, as `goes` says, which may change what stays; the value removed.
+    pub(crate) fn remove_if(&mut self, key: &K, goes: impl FnOnce(&mut V) -> bool) -> Option<V> {
         if Arc::get_mut(&mut self.root).is_none() && !self.contains(key) {
             return None;
         }
-        let old = Arc::make_mut(&mut self.root).remove(key)?;
+        let old = Arc::make_mut(&mut self.root).remove(key, goes)?;
         self.len -= 1;
         while let Node::Inner(children) = &*self.root
             && let [only] = &children.values[..]
@@ -112,6 +127,32 @@ impl<K: Ord + Clone, V: Clone> Map<K, V> {
             self.root = Arc::clone(only);
         }
         Some(old)
+    }
+
+    /// The entry of a group of neighbours, if it is the only one, or `None` where that would take a second look.
+    /// `least` is not above any key of the group. Its key may be changed to any other of the group.
+    pub(crate) fn only_of(
+        &mut self,
+        least: &K,
+        is_of_group: impl Fn(&K) -> bool,
+    ) -> Option<(&mut K, &mut V)> {
+        let mut node = Arc::make_mut(&mut self.root);
+        let mut next = None;
+        loop {
+            match node {
+                Node::Leaf(List { keys, values }) => {
+                    let at = keys.partition_point(|known| known < least);
+                    let is_only = !keys.get(at + 1).or(next).is_some_and(&is_of_group);
+                    let key = keys.get_mut(at).filter(|key| is_only && is_of_group(key))?;
+                    return Some((key, &mut values[at]));
+                }
+                Node::Inner(List { keys, values }) => {
+                    let at = child_of(keys, least);
+                    next = keys.get(at + 1).or(next);
+                    node = Arc::make_mut(&mut values[at]);
+                }
+            }
+        }
     }
 
     /// The entries from `key` on, ascending.

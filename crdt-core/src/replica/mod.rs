@@ -7,7 +7,8 @@
 //! | [`names`], [`held`], [`graph`] | records by dot, writes and claims by register, vertices by name and type |
 //! | [`filing`], [`links`] | records into all indexes and out of them; the edges that a vertex is linked by |
 //! | [`plan`] | what joining a delta removes and adds: merge and closure by the indexes of anchors |
-//! | [`settle`] | carries that out, and brings each part of the view up to date where it is touched |
+//! | [`rewrite`] | the commonest delta, carried out at once |
+//! | [`settle`] | carries out every other, and brings each part of the view up to date where it is touched |
 //! | [`flips`] | the edge claims that come into sight or go out of it |
 //! | [`registers`], [`tree`], [`detached`], [`paths`], [`vertices`], [`attributes`] | the parts |
 //! | [`read`], [`ground`], [`shown`] | the faces for readers, for mutations, for judges |
@@ -45,6 +46,7 @@ mod paths;
 mod plan;
 mod read;
 mod registers;
+mod rewrite;
 mod settle;
 mod shown;
 mod tree;
@@ -143,6 +145,9 @@ impl Replica {
     /// Decoders accept nothing that is not well-formed; who assembles a delta calls
     /// [`check_well_formed`](crate::check_well_formed).
     pub fn apply(&mut self, delta: &Delta) -> Changes {
+        if let Some(changes) = self.graph.rewrite(delta) {
+            return changes;
+        }
         let plan = self.graph.plan(delta);
         let outcome = self.graph.commit(plan.removed, plan.added, false);
         self.see(delta);

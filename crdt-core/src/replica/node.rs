@@ -92,10 +92,15 @@ impl<K, V> List<K, V> {
 
 /// Which child of an inner node a key belongs to.
 pub(super) fn child_of<K: Borrow<Q>, Q: Ord + ?Sized>(keys: &[K], key: &Q) -> usize {
-    keys.partition_point(|least| least.borrow() <= key).saturating_sub(1)
+    // Keys mostly grow.
+    match keys.last() {
+        Some(last) if last.borrow() <= key => keys.len() - 1,
+        _ => keys.partition_point(|least| least.borrow() <= key).saturating_sub(1),
+    }
 }
 
-type Inserted<K, V> = (Option<V>, Option<(K, Arc<Node<K, V>>)>);
+/// What was said of the value met, and a right neighbour.
+type Inserted<K, V, R> = (Option<R>, Option<(K, Arc<Node<K, V>>)>);
 
 impl<K: Ord + Clone, V: Clone> Node<K, V> {
     pub(super) fn size(&self) -> usize {
@@ -105,11 +110,17 @@ impl<K: Ord + Clone, V: Clone> Node<K, V> {
         }
     }
 
-    /// Inserts; the value replaced, and a right neighbour if the node was split.
-    pub(super) fn insert(&mut self, key: K, value: V) -> Inserted<K, V> {
+    /// Inserts, or lets `meet` deal with the value that is there; what it says, and a right neighbour if the node
+    /// was split.
+    pub(super) fn insert<R>(
+        &mut self,
+        key: K,
+        value: V,
+        meet: impl FnOnce(&mut V, V) -> R,
+    ) -> Inserted<K, V, R> {
         match self {
             Self::Leaf(entries) => match entries.keys.binary_search(&key) {
-                Ok(at) => (Some(core::mem::replace(&mut entries.values[at], value)), None),
+                Ok(at) => (Some(meet(&mut entries.values[at], value)), None),
                 Err(at) => {
                     let right = entries.insert_or_split(at, (key, value));
                     (None, right.map(|right| (right.keys[0].clone(), Arc::new(Self::Leaf(right)))))
@@ -117,23 +128,24 @@ impl<K: Ord + Clone, V: Clone> Node<K, V> {
             },
             Self::Inner(children) => {
                 let at = child_of(&children.keys, &key);
-                let (old, added) = Arc::make_mut(&mut children.values[at]).insert(key, value);
+                let (answer, added) = Arc::make_mut(&mut children.values[at]).insert(key, value, meet);
                 let right = added.and_then(|added| children.insert_or_split(at + 1, added));
-                (old, right.map(|right| (right.keys[0].clone(), Arc::new(Self::Inner(right)))))
+                (answer, right.map(|right| (right.keys[0].clone(), Arc::new(Self::Inner(right)))))
             }
         }
     }
 
-    pub(super) fn remove(&mut self, key: &K) -> Option<V> {
+    /// Removes what `goes` says is to go; the value removed.
+    pub(super) fn remove(&mut self, key: &K, goes: impl FnOnce(&mut V) -> bool) -> Option<V> {
         match self {
             Self::Leaf(entries) => {
                 let at = entries.keys.binary_search(key).ok()?;
-                Some(entries.remove(at).1)
+                goes(&mut entries.values[at]).then(|| entries.remove(at).1)
             }
             Self::Inner(children) => {
                 let at = child_of(&children.keys, key);
                 let child = Arc::make_mut(&mut children.values[at]);
-                let old = child.remove(key)?;
+                let old = child.remove(key, goes)?;
                 if child.size() < THIN && children.len() > 1 {
                     let left = at.min(children.len() - 2);
                     balance(children, left);

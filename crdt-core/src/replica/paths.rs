@@ -33,6 +33,8 @@ struct Search {
     /// Vertices whose ways are known to lead to the root.
     known: BTreeSet<Dot>,
     remember: bool,
+    /// Whether some vertex has been looked at in vain.
+    waiting: bool,
 }
 
 impl Graph {
@@ -69,6 +71,12 @@ impl Graph {
 
     /// The first shown edge from a vertex to one that has a way.
     fn way_from(&self, search: &mut Search, vertex: Dot) -> Option<Dot> {
+        // Mostly it is the one to its parent.
+        if let Some((edge, held)) = self.parent_edge(vertex)
+            && self.leads_home(search, held.from)
+        {
+            return Some(edge);
+        }
         self.shown_at(vertex).find(|&(_, other)| self.leads_home(search, other)).map(|(edge, _)| edge)
     }
 }
@@ -84,12 +92,15 @@ impl Settling<'_> {
         let mut queue: VecDeque<Dot> = search.lost.iter().copied().collect();
         loop {
             while let Some(vertex) = queue.pop_front() {
-                if search.lost.contains(&vertex)
-                    && let Some(edge) = self.graph.way_from(&mut search, vertex)
-                {
+                if !search.lost.contains(&vertex) {
+                    continue;
+                }
+                if let Some(edge) = self.graph.way_from(&mut search, vertex) {
                     self.graph.set_up(vertex, edge);
                     search.lost.remove(&vertex);
                     self.call_neighbours(&search, vertex, &mut queue);
+                } else {
+                    search.waiting = true;
                 }
             }
             let Some(&vertex) = search.lost.first() else { return };
@@ -99,7 +110,7 @@ impl Settling<'_> {
 
     /// Lost neighbours of a vertex that has a way now have one, too.
     fn call_neighbours(&self, search: &Search, vertex: Dot, queue: &mut VecDeque<Dot>) {
-        if !search.lost.is_empty() {
+        if search.waiting && !search.lost.is_empty() {
             let others = self.graph.shown_at(vertex).map(|(_, other)| other);
             queue.extend(others.filter(|other| search.lost.contains(other)));
         }
@@ -129,7 +140,7 @@ impl Settling<'_> {
             }
         }
         for &(dot, kind) in &self.came {
-            if kind == Came::Vertex && self.graph.up_of(dot) == NONE {
+            if matches!(kind, Came::Vertex { .. }) && self.graph.up_of(dot) == NONE {
                 search.lost.insert(dot);
             }
         }

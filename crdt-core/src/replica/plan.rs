@@ -39,8 +39,10 @@ impl Graph {
             }
         }
         let is_dead = |anchor: Dot| {
-            let held = plan.added.contains_key(&anchor) || self.records.contains(&anchor);
-            !held && (self.context.contains(anchor) || delta.context().contains(anchor))
+            // What is held here has been seen here.
+            let is_seen = self.context.contains(anchor);
+            let is_held = || is_seen && self.records.contains(&anchor) || plan.added.contains_key(&anchor);
+            (is_seen || delta.context().contains(anchor)) && !is_held()
         };
         let lost = plan.added.iter().filter(|(_, record)| record.anchors().any(is_dead));
         let lost: Vec<Dot> = lost.map(|(&dot, _)| dot).collect();
@@ -86,12 +88,10 @@ impl Graph {
             let held = self.held_in(run).filter(|&dot| !delta.holds(dot));
             plan.removed.extend(held);
         }
-        for (dot, theirs) in delta.records() {
-            let is_new = !self.context.contains(dot) || self.record(dot).is_some_and(|ours| ours < *theirs);
-            if is_new {
-                plan.added.insert(dot, theirs);
-            }
-        }
+        let is_new = |&(dot, theirs): &(Dot, &Record)| {
+            !self.context.contains(dot) || self.record(dot).is_some_and(|ours| ours < *theirs)
+        };
+        plan.added = delta.records().filter(is_new).collect();
         plan
     }
 

@@ -18,7 +18,10 @@ use alloc::vec::Vec;
 /// What was filed under a dot.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Came {
-    Vertex,
+    Vertex {
+        /// Whether its name found nothing when it was filed.
+        is_alone: bool,
+    },
     Edge,
     Write(WriteAt),
 }
@@ -43,6 +46,9 @@ pub(super) struct Settling<'g> {
     pub(super) gone: Vec<Gone>,
     /// What was filed, in order.
     pub(super) came: Vec<(Dot, Came)>,
+    /// Whether records waited for others when the edits began. If none did, all that is at or on what has come has
+    /// come with it.
+    pub(super) waited: bool,
     pub(super) changes: Vec<Change>,
     pub(super) repairs_before: Vec<Repair>,
     pub(super) repairs_after: Vec<Repair>,
@@ -52,8 +58,8 @@ pub(super) struct Settling<'g> {
     pub(super) shown: Vec<(Dot, HeldEdge)>,
     /// Vertices that have become detached or are no longer, with whether they were.
     pub(super) detached_before: BTreeMap<Dot, bool>,
-    /// Vertices whose kinematic edges have changed.
-    pub(super) tops: BTreeSet<Dot>,
+    /// Vertices whose kinematic edges have changed, in any order, and again.
+    pub(super) tops: Vec<Dot>,
     /// Vertices that are or were without a path, with whether they were.
     pub(super) strays_before: BTreeMap<Dot, bool>,
 }
@@ -66,10 +72,12 @@ impl Graph {
         added: impl IntoIterator<Item = (Dot, &'r Record)>,
         keep_gone: bool,
     ) -> Outcome {
+        let waited = !self.loose.is_empty();
         let mut gone: Vec<Gone> = removed.into_iter().filter_map(|dot| self.withdraw(dot)).collect();
         let mut came = Vec::new();
         for (dot, record) in added {
-            let replaced = self.withdraw(dot);
+            // What has not been seen is not held.
+            let replaced = if self.context.contains(dot) { self.withdraw(dot) } else { None };
             came.push((dot, self.file(dot, record)));
             if let Some(replaced) = replaced {
                 self.keep_place(dot, &replaced);
@@ -81,13 +89,14 @@ impl Graph {
             graph: self,
             gone,
             came,
+            waited,
             changes: Vec::new(),
             repairs_before: Vec::new(),
             repairs_after: Vec::new(),
             hidden: Vec::new(),
             shown: Vec::new(),
             detached_before: BTreeMap::new(),
-            tops: BTreeSet::new(),
+            tops: Vec::new(),
             strays_before: BTreeMap::new(),
         };
         settling.finish(keep_gone)
@@ -129,7 +138,7 @@ impl Settling<'_> {
 
     fn touches_vertices(&self) -> bool {
         self.gone.iter().any(|gone| matches!(gone.held, Held::Vertex(_)))
-            || self.came.iter().any(|(_, kind)| *kind == Came::Vertex)
+            || self.came.iter().any(|(_, kind)| matches!(kind, Came::Vertex { .. }))
     }
 
     /// The vertices that have gone.

@@ -55,7 +55,7 @@ struct Judgement {
 
 impl Graph {
     fn claim(&self, dot: Dot) -> Option<Claim> {
-        Some((dot, *self.edge_held(dot)?))
+        if dot == NONE { None } else { Some((dot, *self.edge_held(dot)?)) }
     }
 
     /// The least claim on the way up from `low` to `high`, if `high` is an ancestor of `low`.
@@ -183,6 +183,15 @@ impl Settling<'_> {
             let held: Vec<Claim> =
                 self.graph.claims_on(register).filter_map(|dot| self.graph.claim(dot)).collect();
             let new = self.graph.parent_edge(child).map(|(dot, &edge)| (dot, edge));
+            // Mostly it has come alone, and nothing is repaired.
+            if let (&[only], None, Some(_)) = (&held[..], old, new)
+                && only.1.status == Status::Invisible
+                && vanished.is_empty()
+            {
+                self.set_status(only.0, Status::Shown);
+                self.show(only.0, only.1);
+                continue;
+            }
             let mut before = vanished.remove(&child).unwrap_or_default();
             before.extend(held.iter().copied().filter(|claim| claim.1.status != Status::Invisible));
             let after: Vec<Claim> =

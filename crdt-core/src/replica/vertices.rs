@@ -1,6 +1,6 @@
 //! Vertices that have come or gone, and who is found by their names. `[spec: VIEW-7]`
 
-use super::settle::Settling;
+use super::settle::{Came, Settling};
 use crate::changes::Change;
 use crate::dot::{Dot, VertexId};
 use crate::mutation::is_root_name;
@@ -18,13 +18,17 @@ impl Settling<'_> {
             names.entry(vertex.name.clone()).or_default().push((vertex.stamp, dot));
             changes.push(Change::VertexRemoved { vertex: VertexId(dot), name: vertex.name.clone() });
         }
-        for &(dot, _) in &self.came {
-            if let Some(vertex) = self.graph.vertex_held(dot) {
+        for &(dot, kind) in &self.came {
+            let Came::Vertex { is_alone } = kind else { continue };
+            changes.push(Change::VertexAdded { vertex: VertexId(dot) });
+            if !is_alone && let Some(vertex) = self.graph.vertex_held(dot) {
                 names.entry(vertex.name.clone()).or_default();
-                changes.push(Change::VertexAdded { vertex: VertexId(dot) });
             }
         }
         self.changes.append(&mut changes);
+        if names.is_empty() {
+            return;
+        }
         let came: BTreeSet<Dot> = self.came.iter().map(|(dot, _)| *dot).collect();
         for (name, gone) in names {
             let now: Vec<(u64, Dot)> =

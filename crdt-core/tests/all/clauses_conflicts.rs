@@ -1,8 +1,6 @@
 //! The conflict table: each row played on two replicas, joined both ways. The claims of r2 are the greater
 //! ones, because both authors start from one state and so use one stamp.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
-
 use crate::clauses_common::*;
 use dsr_core::{AttributeMap, Mutation, Placement, RT, Repair, Value, VertexId};
 

@@ -1,6 +1,4 @@
 //! The clauses on changes, each by an example that says what is told, word for word.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
-
 use dsr_core::{
     Change, Changes, Dictionary, Dot, EdgeId, EdgeKey, Repair, Replica, ReplicaId, Rule, State, VertexId,
     view,

@@ -1,7 +1,5 @@
 //! Limits of what is decoded. Those of mutations stand with the mutations.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
-
 use dsr_core::{
     CausalContext, DecodeError, Digest, MalformedDigest, ReplicaId, Run, State, check_digest, decode, encode,
     limits,

@@ -1,7 +1,5 @@
 //! The six mutations: every condition, every error, every effect.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
-
 use crate::clauses_common::*;
 use dsr_core::{
     AddEdgeError, AddVertexError, AttributeError, AttributeMap, AttributeUpdates, Author, CausalContext,

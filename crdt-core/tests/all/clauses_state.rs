@@ -1,7 +1,5 @@
 //! Identity, context, state, well-formedness, join and closure.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
-
 use crate::clauses_common::history::{history, part, parts};
 use crate::clauses_common::*;
 use dsr_core::{

@@ -1,7 +1,5 @@
 //! Digests, resynchronisation and limits of what is decoded.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
-
 use crate::clauses_common::history::{history, parts};
 use crate::clauses_common::*;
 use dsr_core::{Delta, Dot, Run, State, VertexId, check_well_formed, delta_for, digest, fingerprint};

@@ -1,7 +1,5 @@
 //! Values and the dictionary.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
-
 use crate::clauses_common::*;
 use dsr_core::{
     AddVertexError, Dictionary, NewEdgeError, RT, Record, UpdateAttributesError, Value, ValueType,

@@ -1,7 +1,5 @@
 //! The view: each rule, its repairs, order freedom, the invariants, and what an author may expect.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
-
 use crate::clauses_common::history::{history, part, parts};
 use crate::clauses_common::*;
 use dsr_core::invariant::{check_repairs, check_view};

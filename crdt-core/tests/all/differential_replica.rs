@@ -1,6 +1,4 @@
 //! The replica and the readable reference agree, after every step, on states, views, changes and errors.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
-
 use crate::replica_support::Pair;
 use dsr_core::{
     Dictionary, Dot, Edge, MutationKind, Record, ReplicaId, State, ValueType, Vertex, VertexId, view,

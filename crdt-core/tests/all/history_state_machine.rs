@@ -1,7 +1,5 @@
 //! Replicas that mutate, lose, reorder, repeat and resynchronise, against a reference that knows only *which*
 //! deltas each has got: a replica's state is a function of that set. `[spec: JOIN-5]`
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
-
 use dsr_core::{
     Delta, Dictionary, State, check_well_formed, decode, delta_for, digest, encode, fingerprint, invariant,
     view,

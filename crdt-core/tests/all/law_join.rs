@@ -1,6 +1,4 @@
 //! Join is the join of a semilattice: exhaustively over small universes, then by sampling over large ones.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
-
 use dsr_core::{Dot, State, check_well_formed, invariant};
 use dsr_testkit::{Anchors, Fate, Universe, cases, fates, parse_state, state, states};
 use proptest::prelude::*;

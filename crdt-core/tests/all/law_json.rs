@@ -1,7 +1,5 @@
 //! The JSON forms: what is written is read back, one value has one text, and a text that spells no
 //! well-formed state is refused.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
-
 use dsr_core::{
     Author, CausalContext, Digest, MutationKind, Record, Repair, ReplicaId, State, decode, digest, encode,
     view,

@@ -1,7 +1,5 @@
 //! The six mutations on any state, reachable or not: inflationary, exact in what they touch, refused without
 //! a trace, and shown at once.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
-
 use dsr_core::{
     AttributeMap, Author, Delta, Dot, EdgeKey, Mutation, MutationKind, Record, ReplicaId, State, View,
     check_well_formed, decode, encode, invariant, view,

@@ -1,6 +1,4 @@
 //! Digests and the least delta: whatever two replicas have missed, one exchange makes them equal.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
-
 use dsr_core::{
     CausalContext, Digest, Dot, Record, ReplicaId, Run, State, Value, Vertex, VertexId, Write, check_digest,
     check_well_formed, decode, delta_for, digest, encode, fingerprint, limits,

@@ -1,6 +1,4 @@
 //! The view of any state keeps the invariants, repairs only what is broken, and says so.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
-
 use dsr_core::{Dictionary, MutationKind, State, ValueType, VertexId, decode, encode, invariant, view};
 use dsr_testkit::{Anchors, Step, Universe, World, cases, dictionary, history, state, states};
 use proptest::prelude::*;

@@ -1,6 +1,13 @@
 //! The tests of the core against its public face, in one program: linking twenty would cost more than running them.
 //! A test that needs the process for itself has a file of its own beside this folder.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test that cannot go on has failed"
+)]
+
 mod canary_invariants;
 mod clauses_common;
 mod clauses_conflicts;

@@ -1,12 +1,5 @@
 //! Files that are no scene at all: each a clear error with its place, and never a panic.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    reason = "a test that cannot go on says where"
-)]
-
 use crate::scene_support::{check_lossless, fault_lines, faults, link, scene, symbol, with_attributes};
 use dsr_core::scene::{FLAT, FaultKind, Scene, Strictness, TINY};
 use dsr_core::{Dictionary, limits};

@@ -1,12 +1,5 @@
 //! Every fault of a graph: told with its place when read strictly, dropped and listed when read leniently.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    reason = "a test that cannot go on says where"
-)]
-
 use crate::scene_support::{check_lossless, fault_lines, faults, link, scene, symbol, with_attributes};
 use dsr_core::scene::{FaultKind, Scene, Strictness};
 use dsr_core::{Dictionary, ValueType, view};

@@ -1,12 +1,5 @@
 //! The published system's own scenes, where they are at hand, and the scenes that ship with the crate.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    reason = "a test that cannot go on says where"
-)]
-
 use crate::scene_support::check_lossless;
 use dsr_core::scene::{FLAT, FaultKind, Scene, Strictness, TINY};
 use dsr_core::{Dictionary, Record, ValueType, view};

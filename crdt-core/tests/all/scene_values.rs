@@ -1,12 +1,5 @@
 //! Every type of value, on vertices and on edges, there and back.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    reason = "a test that cannot go on says where"
-)]
-
 use crate::scene_support::{check_lossless, fault_lines, with_attributes};
 use dsr_core::scene::{Scene, Strictness};
 use dsr_core::{

@@ -1,12 +1,5 @@
 //! Scenes of any state: conflicts, repairs, vertices that no file ever had.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    reason = "a test that cannot go on says where"
-)]
-
 use crate::scene_support::{check_lossless, link, scene, symbol};
 use dsr_core::scene::{Note, Scene, Strictness, TINY};
 use dsr_core::{

@@ -1,4 +1,4 @@
-(* The binary encoding of states and digests (ENC-1 to ENC-11). *)
+(* The binary encoding of states and digests (ENC-1 to ENC-12). *)
 
 open Kernel
 module Z = Number.Z
@@ -6,6 +6,37 @@ module Z = Number.Z
 exception Undecodable of string
 
 let undecodable format = Printf.ksprintf (fun why -> raise (Undecodable why)) format
+
+let version = 2
+
+(* The static table (ENC-12). *)
+let vocabulary =
+  [|
+    "RT"; "agent"; "agent_description"; "agent_id"; "agent_name"; "battery_load"; "cam_depth"; "cam_rgb";
+    "color"; "cpu_usage"; "depth"; "door"; "finished"; "has"; "height"; "in"; "is_performing"; "laser";
+    "laser_angles"; "laser_dists"; "level"; "mass"; "memory_usage"; "mesh"; "name"; "num_procs"; "object";
+    "omnirobot"; "parent"; "path"; "person"; "plane"; "pos_x"; "pos_y"; "priority"; "rgbd"; "robot";
+    "robot_current_advance_speed"; "robot_current_angular_speed"; "robot_current_side_speed";
+    "robot_local_angular_velocity"; "robot_local_linear_velocity"; "robot_ref_adv_speed";
+    "robot_ref_rot_speed"; "robot_ref_side_speed"; "room"; "rt_quaternion"; "rt_rotation_euler_xyz";
+    "rt_rotation_euler_xyz_velocity"; "rt_se2_covariance"; "rt_timestamps"; "rt_translation";
+    "rt_translation_velocity"; "scalex"; "scaley"; "scalez"; "source"; "texture"; "timestamp_agent";
+    "timestamp_alivetime"; "timestamp_creation"; "transform"; "wants_to"; "width";
+  |]
+
+let places =
+  let places = Hashtbl.create 128 in
+  Array.iteri (fun place name -> Hashtbl.add places name place) vocabulary;
+  places
+
+(* A signed integer as an unsigned one, and back (ENC-3). *)
+let fold number =
+  let twice = Z.shift_left number 1 in
+  if Z.sign number >= 0 then twice else Z.pred (Z.neg twice)
+
+let unfold folded =
+  let half = Z.shift_right folded 1 in
+  if Z.is_odd folded then Z.pred (Z.neg half) else half
 
 (* ** Writing *)
 
@@ -28,6 +59,11 @@ and write_small buffer number =
 let write_bytes buffer bytes =
   write_small buffer (String.length bytes);
   Buffer.add_string buffer bytes
+
+(* What differs from the number before, whose place it takes. *)
+let write_difference buffer before number =
+  write_varint buffer (fold (Z.signed_extract (Z.sub number !before) 0 64));
+  before := number
 
 let write_runs buffer replicas form =
   let run least (first, last) =
@@ -58,12 +94,10 @@ let same_replica left right = Order.compare_replicas left right = 0
 
 let write_value buffer value =
   let words bits = List.iter bits value.items in
-  write_small buffer (Z.to_int value.value_type);
   match (Values.kind_of value, value.items) with
   | (String | Byte_vec), items -> write_bytes buffer (Values.bytes_of_items items)
   | Int, [ item ] ->
-    write_varint buffer
-      (if Z.sign item >= 0 then Z.shift_left item 1 else Z.pred (Z.neg (Z.shift_left item 1)))
+    write_varint buffer (fold item)
   | (Uint | Uint64 | Bool), [ item ] -> write_varint buffer item
   | Double, _ -> words (fun item -> Buffer.add_int64_le buffer (Values.bits64 item))
   | U64_vec, items ->
@@ -76,11 +110,26 @@ let write_value buffer value =
   | (Int | Uint | Uint64 | Bool), _ -> invalid_arg "a number is one item"
 
 let begin_ buffer kind replicas =
-  write_small buffer 1;
-  write_small buffer kind;
+  Buffer.add_uint8 buffer (version lor (kind lsl 4));
   write_small buffer (List.length replicas);
-  let replica { agent; incarnation } = write_varint buffer agent; write_varint buffer incarnation in
+  let replica { agent; incarnation } =
+    let twice = Z.shift_left agent 1 in
+    if Z.sign incarnation = 0 then write_varint buffer twice
+    else begin
+      write_varint buffer (Z.succ twice);
+      write_varint buffer (Z.pred incarnation)
+    end
+  in
   List.iter replica replicas
+
+(* How many of the dots, which stand in runs, come before a sequence that is one of them; and those after it. *)
+let rec skip_to sequence passed = function
+  | (first, last) :: runs when Z.lt last sequence ->
+    skip_to sequence (Z.add passed (Z.succ (Z.sub last first))) runs
+  | (first, last) :: runs when Z.leq first sequence ->
+    let left = if Z.equal sequence last then runs else (Z.succ sequence, last) :: runs in
+    (Z.add passed (Z.sub sequence first), left)
+  | _ -> invalid_arg "what is held has been seen"
 
 let state_bytes state =
   let buffer = Buffer.create 512 in
@@ -91,14 +140,18 @@ let state_bytes state =
   let replicas =
     List.sort_uniq Order.compare_replicas (List.map fst state.form0 @ List.concat_map anchored state.held)
   in
-  let names =
-    List.sort_uniq String.compare (List.concat_map (fun (_, record) -> names_of record) state.held)
-  in
+  let own (_, record) = List.filter (fun name -> not (Hashtbl.mem places name)) (names_of record) in
+  let names = List.sort_uniq String.compare (List.concat_map own state.held) in
   begin_ buffer 0 replicas;
   write_runs buffer replicas state.form0;
   write_small buffer (List.length names);
   List.iter (write_bytes buffer) names;
-  let name text = write_small buffer (index String.equal text names) in
+  let name text =
+    write_small buffer
+      (match Hashtbl.find_opt places text with
+       | Some place -> place
+       | None -> Array.length vocabulary + index String.equal text names)
+  in
   let anchor dot =
     if is_root dot then write_small buffer 0
     else begin
@@ -106,9 +159,12 @@ let state_bytes state =
       write_varint buffer dot.sequence
     end
   in
-  let head kind stamp = write_small buffer kind; write_varint buffer stamp in
-  let record least (dot, record) =
-    write_varint buffer (Z.sub dot.sequence least);
+  let stamp_before = ref Z.zero in
+  let time_before = ref Z.zero in
+  let head kind stamp = write_small buffer kind; write_difference buffer stamp_before stamp in
+  let record seen (dot, record) =
+    let skip, left = skip_to dot.sequence Z.zero seen in
+    write_varint buffer skip;
     (match record with
      | Vertex (kind, text, external_id, stamp) ->
        head (if external_id = None then 0 else 1) stamp;
@@ -116,16 +172,22 @@ let state_bytes state =
        Option.iter (write_varint buffer) external_id
      | Edge (from, target, label, stamp) -> head 2 stamp; anchor from; anchor target; name label
      | Write (target, text, value, time, stamp) ->
-       head 3 stamp; anchor target; name text; write_varint buffer time; write_value buffer value);
-    Z.succ dot.sequence
+       head (3 + Z.to_int value.value_type) stamp;
+       anchor target; name text;
+       write_difference buffer time_before time;
+       write_value buffer value);
+    left
   in
   let rec records replicas held =
     match replicas with
     | [] -> ()
     | replica :: replicas ->
       let own, others = List.partition (fun (dot, _) -> same_replica dot.replica0 replica) held in
-      write_small buffer (List.length own);
-      ignore (List.fold_left record Z.one own);
+      let seen = runs_of state.form0 replica in
+      if seen <> [] then begin
+        write_small buffer (List.length own);
+        ignore (List.fold_left record seen own)
+      end;
       records replicas others
   in
   records replicas state.held;
@@ -184,6 +246,10 @@ let up_to greatest reader =
 
 let word = up_to (Z.pred (Z.shift_left Z.one 32))
 
+let read_difference reader before =
+  before := Z.extract (Z.add !before (unfold (varint reader))) 0 64;
+  !before
+
 (* A number of things, each of at least so many bytes: no more than what remains has room for. *)
 let count ?(most = max_int) each reader =
   let number = varint reader in
@@ -219,8 +285,14 @@ let look table number =
 let check_used what table = if not (Array.for_all Fun.id table.used) then undecodable "a %s is never used" what
 
 let read_replicas reader =
-  let replica () = let agent = word reader in { agent; incarnation = word reader } in
-  let number = count 3 reader in
+  let replica () =
+    let agent_and_bit = up_to (Z.pred (Z.shift_left Z.one 33)) reader in
+    let incarnation =
+      if Z.is_odd agent_and_bit then Z.succ (up_to (Z.of_int 0xffff_fffe) reader) else Z.zero
+    in
+    { agent = Z.shift_right agent_and_bit 1; incarnation }
+  in
+  let number = count 2 reader in
   let replicas = times number replica in
   ascending Order.compare_replicas "replicas" replicas;
   table replicas
@@ -260,13 +332,13 @@ let read_names reader =
   let number = count 2 reader in
   let names = times number name in
   ascending String.compare "names" names;
+  let known name = if Hashtbl.mem places name then undecodable "%S is a name of the static table" name in
+  List.iter known names;
   table names
 
 let value_bytes_max = 67_108_864
 
-let read_value reader =
-  let number = byte reader in
-  if number >= Array.length Values.kinds then undecodable "at byte %d: %d is no type" reader.at number;
+let read_value reader number =
   let length each = count ~most:(value_bytes_max / each) each reader in
   let float () = Values.place32 (String.get_int32_le (take reader 4) 0) in
   let wide () = String.get_int64_le (take reader 8) 0 in
@@ -274,10 +346,7 @@ let read_value reader =
     match snd Values.kinds.(number) with
     | String -> let bytes = length 1 in Values.items_of_bytes (utf8 reader bytes)
     | Byte_vec -> let bytes = length 1 in Values.items_of_bytes (take reader bytes)
-    | Int ->
-      let folded = word reader in
-      let half = Z.shift_right folded 1 in
-      [ (if Z.is_odd folded then Z.pred (Z.neg half) else half) ]
+    | Int -> [ unfold (word reader) ]
     | Uint -> [ word reader ]
     | Uint64 -> [ varint reader ]
     | Bool -> (
@@ -292,10 +361,10 @@ let read_value reader =
   in
   Values.make number items
 
-let read_record reader replicas names =
+let read_record reader replicas names stamp_before time_before =
   let kind = byte reader in
-  if kind > 3 then undecodable "at byte %d: %d is no kind of record" reader.at kind;
-  let stamp = varint reader in
+  if kind >= 3 + Array.length Values.kinds then undecodable "at byte %d: %d is no kind of record" reader.at kind;
+  let stamp = read_difference reader stamp_before in
   let anchor () =
     let index = varint reader in
     if Z.sign index = 0 then rOOT
@@ -306,32 +375,51 @@ let read_record reader replicas names =
       { replica0; sequence }
     end
   in
-  let name () = look names (varint reader) in
+  let name () =
+    let index = varint reader in
+    let own = Z.sub index (Z.of_int (Array.length vocabulary)) in
+    if Z.sign own < 0 then vocabulary.(Z.to_int index) else look names own
+  in
   match kind with
   | 2 ->
     let from = anchor () in
     let target = anchor () in
     Edge (from, target, name (), stamp)
-  | 3 ->
-    let target = anchor () in
-    let text = name () in
-    let time = varint reader in
-    Write (target, text, read_value reader, time, stamp)
-  | _ ->
+  | 0 | 1 ->
     let vertex_type = name () in
     let text = name () in
     Vertex (vertex_type, text, (if kind = 1 then Some (varint reader) else None), stamp)
+  | _ ->
+    let target = anchor () in
+    let text = name () in
+    let time = read_difference reader time_before in
+    Write (target, text, read_value reader (kind - 3), time, stamp)
 
 let start bytes kind =
   if String.length bytes > 1_073_741_824 then undecodable "over 1 GiB";
   let reader = { bytes; at = 0 } in
-  let version = byte reader in
-  if version <> 1 then undecodable "version %d" version;
-  let found = byte reader in
-  if found <> kind then undecodable "kind %d" found;
+  let first = byte reader in
+  if first land 15 <> version then undecodable "version %d" (first land 15);
+  if first lsr 4 <> kind then undecodable "kind %d" (first lsr 4);
   reader
 
 let finish reader = if left reader > 0 then undecodable "at byte %d: %d bytes follow the end" reader.at (left reader)
+
+(* The dot that so many come before, of those that stand in runs; leaves those after it. *)
+let rec pass reader skip left =
+  match !left with
+  | [] -> undecodable "at byte %d: a record's dot is beyond the context" reader.at
+  | (first, last) :: runs ->
+    let dots = Z.succ (Z.sub last first) in
+    if Z.geq skip dots then begin
+      left := runs;
+      pass reader (Z.sub skip dots) left
+    end
+    else begin
+      let sequence = Z.add first skip in
+      left := if Z.equal sequence last then runs else (Z.succ sequence, last) :: runs;
+      sequence
+    end
 
 (* A state; raises `Undecodable`, or `States.Unsound` if it is not well-formed. *)
 let state bytes =
@@ -340,19 +428,19 @@ let state bytes =
   let form0 = read_runs ~most_beyond:Dots.cloud_runs_max reader replicas in
   let names = read_names reader in
   let total = ref 0 in
-  let records replica0 =
+  let stamp_before = ref Z.zero in
+  let time_before = ref Z.zero in
+  let records (replica0, seen) =
     let number = count ~most:(Dots.records_max - !total) 5 reader in
     total := !total + number;
-    let least = ref Z.one in
+    let left = ref seen in
     let record () =
-      let sequence = Z.add !least (varint reader) in
-      if Z.gt sequence sequence_max then undecodable "at byte %d: a sequence is too great" reader.at;
-      least := Z.succ sequence;
-      ({ replica0; sequence }, read_record reader replicas names)
+      let sequence = pass reader (varint reader) left in
+      ({ replica0; sequence }, read_record reader replicas names stamp_before time_before)
     in
     times number record
   in
-  let held = List.concat_map records (Array.to_list replicas.items) in
+  let held = List.concat_map records form0 in
   finish reader;
   check_used "replica" replicas;
   check_used "name" names;

@@ -48,16 +48,45 @@ fn oracle_a_map_is_a_btree_map_and_its_clones_stay_as_they_were() {
     let mut below = noise();
     for span in [20, 300, 5000] {
         let (mut map, mut known) = (Map::default(), BTreeMap::new());
-        let mut kept = vec![];
+        let (mut kept, mut seen_alone, mut missed_alone) = (vec![], 0, 0);
         for round in 0..12_000_u64 {
             let key = below(span);
             let growing = round / 2000 % 2 == 0;
             if below(10) < if growing { 7 } else { 3 } {
                 assert_eq!(map.insert(key, round), known.insert(key, round));
-            } else if below(3) == 0 {
-                assert_eq!(map.get_mut(&key), known.get_mut(&key));
             } else {
-                assert_eq!(map.remove(&key), known.remove(&key));
+                match below(6) {
+                    0 => assert_eq!(map.get_mut(&key), known.get_mut(&key)),
+                    1 => {
+                        map.upsert(key, round, |value| *value += round);
+                        known.entry(key).and_modify(|value| *value += round).or_insert(round);
+                    }
+                    2 => {
+                        let stays = |value: &mut u64| {
+                            *value += 1;
+                            value.is_multiple_of(2)
+                        };
+                        let gone = map.remove_if(&key, |value| !stays(value));
+                        let known_to_go = known.get_mut(&key).is_some_and(|value| !stays(value));
+                        assert_eq!(gone, if known_to_go { known.remove(&key) } else { None });
+                    }
+                    3 => {
+                        // Groups of four.
+                        let (least, other) = (key / 4 * 4, key / 4 * 4 + below(4));
+                        let group: Vec<u64> = known.range(least..least + 4).map(|(&key, _)| key).collect();
+                        let found = map.only_of(&least, |key| key / 4 == least / 4);
+                        if let Some((found, value)) = found {
+                            assert_eq!((vec![*found], *value), (group.clone(), known[found]));
+                            known.remove(found);
+                            known.insert(other, round);
+                            (*found, *value) = (other, round);
+                            seen_alone += 1;
+                        } else {
+                            missed_alone += usize::from(group.len() == 1);
+                        }
+                    }
+                    _ => assert_eq!(map.remove(&key), known.remove(&key)),
+                }
             }
             let probe = below(span);
             assert_eq!(map.get(&probe), known.get(&probe));
@@ -72,6 +101,7 @@ fn oracle_a_map_is_a_btree_map_and_its_clones_stay_as_they_were() {
                 assert_eq!((map.len(), map.last()), (known.len(), known.last_key_value()));
             }
         }
+        assert!(seen_alone > 30 && missed_alone * 10 < seen_alone, "{seen_alone}, and missed {missed_alone}");
         assert!(kept.iter().all(|(map, known)| map.iter().eq(known.iter())));
         for key in 0..span {
             map.remove(&key);

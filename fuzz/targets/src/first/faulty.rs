@@ -162,7 +162,7 @@ pub(super) fn protocol() -> Vec<String> {
         after(r#"{"id":2,"do":{"deliver":{"replica":"a","delta":"d9"}}}"#),
         after(r#"{"id":2,"do":{"fly":{}}}"#),
         after(r#"{"id":2,"do":{"read":["a"]}}"#),
-        after(r#"{"id":2,"do":{"decode":{"bytes":"0100"}}}"#),
+        after(r#"{"id":2,"do":{"decode":{"bytes":"0200"}}}"#),
         after(r#"{"id":2,"do":{"load":{"state":{}}}}"#),
         r#"{"id":1,"do":{"hello":{"protocols":[7],"spec":"","corpus":""}}}"#.into(),
         r#"{"id":1,"do":{"case_begin":{"case":"c","replicas":["a","a"]}}}"#.into(),
