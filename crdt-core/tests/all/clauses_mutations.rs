@@ -610,6 +610,15 @@ fn oracle_counters_run_out_with_an_error() {
     assert!(late.attempt(&destroy(flat.drone)).is_ok());
 }
 
+/// Six kinds, each found by its name, which is that of its function. [spec: MUT-0]
+#[test]
+fn law_a_kind_is_found_by_its_name() {
+    let names = ["add_vertex", "add_edge", "update_attributes", "remove_edge", "move_edge", "remove_vertex"];
+    assert_eq!(MutationKind::ALL.map(MutationKind::name), names);
+    assert_eq!(names.map(MutationKind::from_name), MutationKind::ALL.map(Some));
+    assert_eq!(MutationKind::from_name("remove"), None);
+}
+
 /// With as many dots left as a mutation makes records it is allowed, with one less it is not; the last stamp can be used.
 /// [spec: MUT-0.3] [spec: LIMIT-5] [spec: LIMIT-6]
 #[test]
