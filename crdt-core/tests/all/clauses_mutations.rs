@@ -610,6 +610,15 @@ fn oracle_counters_run_out_with_an_error() {
     assert!(late.attempt(&destroy(flat.drone)).is_ok());
 }
 
+/// An error about an element says which, and whether it is a vertex or an edge. [spec: MUT-3.1]
+#[test]
+fn law_an_error_names_the_element() {
+    let id = dot(1, 2);
+    let unknown = |target| UpdateAttributesError::UnknownTarget { target }.to_string();
+    assert_eq!(unknown(of(VertexId(id))), "vertex r1.2 is not in the graph");
+    assert_eq!(unknown(on(EdgeId(id))), "edge r1.2 is not in the graph");
+}
+
 /// Six kinds, each found by its name, which is that of its function. [spec: MUT-0]
 #[test]
 fn law_a_kind_is_found_by_its_name() {
