@@ -228,12 +228,13 @@ fn law_long_ways_up_the_tree_are_walked_to_the_root() {
     for chain in
         [["r1.1", "r1.2", "r1.3", "r1.4"], ["r1.4", "r1.3", "r1.2", "r1.1"], ["r1.2", "r1.4", "r1.1", "r1.3"]]
     {
-        let vertices = (1..=4).map(|n| format!("r1.{n} vertex t v{n} @1\n"));
+        let vertices = (1..=4).map(|n| format!("r1.{n} vertex t v{n} @1"));
         let parents = [&["root"], &chain[..3]].concat();
         let claims = parents.iter().zip(chain).enumerate();
         let claims =
-            claims.map(|(at, (parent, child))| format!("r2.{} edge {parent} -RT-> {child} @2\n", at + 1));
-        let (state, dictionary) = (state(&vertices.chain(claims).collect::<String>()), dictionary());
+            claims.map(|(at, (parent, child))| format!("r2.{} edge {parent} -RT-> {child} @2", at + 1));
+        let (state, dictionary) =
+            (state(&vertices.chain(claims).collect::<Vec<_>>().join("\n")), dictionary());
         let mut shown = Shown::of(&state, &dictionary);
         assert_eq!(check_view(&shown), Ok(()));
         assert_eq!(check_repairs(&shown), Ok(()));
@@ -409,8 +410,8 @@ fn canary_silence_about_what_is_broken_is_told() {
 #[test]
 fn canary_what_comes_back_from_the_dead_is_told() {
     let records = |dots: &[&str]| {
-        let text: String = dots.iter().map(|dot| format!("{dot} vertex t v @1\n")).collect();
-        state(&text)
+        let lines: Vec<String> = dots.iter().map(|dot| format!("{dot} vertex t v @1")).collect();
+        state(&lines.join("\n"))
     };
     let mut before = records(&["r1.1", "r1.3", "r3.1"]);
     before.join(&state("dead r1.2 r1.4 r2.1"));

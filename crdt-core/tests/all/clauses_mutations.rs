@@ -276,6 +276,13 @@ fn oracle_attributes_at_the_limits_are_accepted() {
     assert!(flat.base.attempt(&Mutation::UpdateAttributes { target: of(flat.hall), updates: many }).is_ok());
     let large = Value::ByteVec(vec![0; limits::VALUE_BYTES_MAX].into());
     assert!(flat.base.attempt(&set(of(flat.hall), &"n".repeat(255), large)).is_ok());
+    let many: AttributeMap =
+        (0..limits::ATTRIBUTES_MAX).map(|n| (format!("a{n}").into(), Value::Int(0))).collect();
+    let vertex = NewVertex { attributes: many.clone(), ..NewVertex::new("thing", "x") };
+    let link = VertexLink { attributes: many.clone(), ..VertexLink::child_of(ROOT) };
+    assert!(flat.base.attempt(&Mutation::AddVertex { vertex, link }).is_ok());
+    let key = key(flat.drone, "sees", flat.lamp);
+    assert!(flat.base.attempt(&Mutation::AddEdge { key, attributes: many }).is_ok());
 }
 
 /// r1 holds an edge from the drone to an attic that it has not seen.
@@ -665,7 +672,7 @@ fn law_the_last_dots_and_the_last_stamp_can_be_used() {
             match peer.attempt(&mutation) {
                 Ok(delta) => assert!(left >= records && check_well_formed(&delta).is_ok()),
                 Err(error) => {
-                    assert!(left < records && error.kind() == "Exhausted.Sequences", "{left}: {error}")
+                    assert!(left < records && error.kind() == "Exhausted.Sequences", "{left}: {error}");
                 }
             }
         }
