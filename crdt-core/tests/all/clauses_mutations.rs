@@ -283,6 +283,7 @@ fn oracle_attributes_at_the_limits_are_accepted() {
     assert!(flat.base.attempt(&Mutation::AddVertex { vertex, link }).is_ok());
     let key = key(flat.drone, "sees", flat.lamp);
     assert!(flat.base.attempt(&Mutation::AddEdge { key, attributes: many }).is_ok());
+    assert!(flat.base.attempt(&edge(flat.drone, &"l".repeat(limits::NAME_BYTES_MAX), flat.lamp)).is_ok());
 }
 
 /// r1 holds an edge from the drone to an attic that it has not seen.
