@@ -123,3 +123,17 @@ impl core::fmt::Display for EdgeKey {
 
 /// Where a claim stands among its competitors: greatest first wins. `[spec: STAMP-2]`
 pub type Rank = (u64, Dot);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dot::ReplicaId;
+    use alloc::string::ToString;
+
+    /// Errors and reports name edges so.
+    #[test]
+    fn law_a_key_reads_from_source_to_target() {
+        let room = VertexId(Dot::new(ReplicaId::agent(1), 2));
+        assert_eq!(EdgeKey::new(VertexId::ROOT, "in", room).to_string(), "root -in-> r1.2");
+    }
+}

@@ -276,6 +276,14 @@ fn oracle_attributes_at_the_limits_are_accepted() {
     assert!(flat.base.attempt(&Mutation::UpdateAttributes { target: of(flat.hall), updates: many }).is_ok());
     let large = Value::ByteVec(vec![0; limits::VALUE_BYTES_MAX].into());
     assert!(flat.base.attempt(&set(of(flat.hall), &"n".repeat(255), large)).is_ok());
+    let many: AttributeMap =
+        (0..limits::ATTRIBUTES_MAX).map(|n| (format!("a{n}").into(), Value::Int(0))).collect();
+    let vertex = NewVertex { attributes: many.clone(), ..NewVertex::new("thing", "x") };
+    let link = VertexLink { attributes: many.clone(), ..VertexLink::child_of(ROOT) };
+    assert!(flat.base.attempt(&Mutation::AddVertex { vertex, link }).is_ok());
+    let key = key(flat.drone, "sees", flat.lamp);
+    assert!(flat.base.attempt(&Mutation::AddEdge { key, attributes: many }).is_ok());
+    assert!(flat.base.attempt(&edge(flat.drone, &"l".repeat(limits::NAME_BYTES_MAX), flat.lamp)).is_ok());
 }
 
 /// r1 holds an edge from the drone to an attic that it has not seen.
@@ -610,6 +618,24 @@ fn oracle_counters_run_out_with_an_error() {
     assert!(late.attempt(&destroy(flat.drone)).is_ok());
 }
 
+/// An error about an element says which, and whether it is a vertex or an edge. [spec: MUT-3.1]
+#[test]
+fn law_an_error_names_the_element() {
+    let id = dot(1, 2);
+    let unknown = |target| UpdateAttributesError::UnknownTarget { target }.to_string();
+    assert_eq!(unknown(of(VertexId(id))), "vertex r1.2 is not in the graph");
+    assert_eq!(unknown(on(EdgeId(id))), "edge r1.2 is not in the graph");
+}
+
+/// Six kinds, each found by its name, which is that of its function. [spec: MUT-0]
+#[test]
+fn law_a_kind_is_found_by_its_name() {
+    let names = ["add_vertex", "add_edge", "update_attributes", "remove_edge", "move_edge", "remove_vertex"];
+    assert_eq!(MutationKind::ALL.map(MutationKind::name), names);
+    assert_eq!(names.map(MutationKind::from_name), MutationKind::ALL.map(Some));
+    assert_eq!(MutationKind::from_name("remove"), None);
+}
+
 /// With as many dots left as a mutation makes records it is allowed, with one less it is not; the last stamp can be used.
 /// [spec: MUT-0.3] [spec: LIMIT-5] [spec: LIMIT-6]
 #[test]
@@ -647,7 +673,7 @@ fn law_the_last_dots_and_the_last_stamp_can_be_used() {
             match peer.attempt(&mutation) {
                 Ok(delta) => assert!(left >= records && check_well_formed(&delta).is_ok()),
                 Err(error) => {
-                    assert!(left < records && error.kind() == "Exhausted.Sequences", "{left}: {error}")
+                    assert!(left < records && error.kind() == "Exhausted.Sequences", "{left}: {error}");
                 }
             }
         }

@@ -310,10 +310,23 @@ fn oracle_each_fault_of_form_is_named() {
             Malformed::Sequence { replica: ReplicaId::agent(3), sequence: limits::SEQUENCE_MAX + 1 }
         }),
     ];
+    let mut kinds = BTreeSet::new();
     for (state, expected) in cases {
+        // The name in the chapter, which is what other languages report.
+        let variant = format!("{expected:?}");
+        assert_eq!(variant.split(' ').next(), Some(expected.kind()));
+        assert!(include_str!("../../../spec/wellformed.md").contains(&format!("`{}`", expected.kind())));
+        kinds.insert(expected.kind());
         assert_eq!(check_well_formed(&state), Err(expected));
     }
+    assert_eq!(kinds.len(), 11, "every fault has a case");
     check_well_formed(&with(link(a, "near", VertexId::ROOT.0))).unwrap();
+    let full = Value::ByteVec(vec![0; limits::VALUE_BYTES_MAX].into());
+    check_well_formed(&with(write(a, full))).unwrap();
+    check_well_formed(&with(vertex(&"n".repeat(limits::NAME_BYTES_MAX), limits::STAMP_MAX))).unwrap();
+    let mut last = CausalContext::new();
+    last.insert(dot(3, limits::SEQUENCE_MAX));
+    check_well_formed(&State::assemble([], last)).unwrap();
     check_well_formed(&with(write(a, Value::Float(f32::NAN).with_canonical_nans()))).unwrap();
 }
 

@@ -161,6 +161,17 @@ proptest! {
         prop_assert!(State::new().is_below(a));
     }
 
+    /// What is known already is merged without a trace: nothing is left to close. `[spec: JOIN-4]` `[spec: CLOSE-1]`
+    #[test]
+    fn law_what_is_known_needs_no_closure(pair in states(2, 16, Anchors::Any)) {
+        let joined = pair[0].joined(&pair[1]);
+        for known in pair.iter().chain([&joined]) {
+            let mut merged = joined.clone();
+            prop_assert!(!merged.merge(known));
+            prop_assert_eq!(&merged, &joined);
+        }
+    }
+
     /// `[spec: JOIN-3]` `[spec: STATE-3]` `[spec: STATE-6]`
     #[test]
     fn law_join_keeps_states_well_formed_and_removal_final(pair in states(2, 20, Anchors::Right)) {

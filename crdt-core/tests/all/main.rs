@@ -8,6 +8,7 @@
     reason = "a test that cannot go on has failed"
 )]
 
+mod canary_invariants;
 mod clauses_common;
 mod clauses_conflicts;
 mod clauses_events;

@@ -203,9 +203,14 @@ mod tests {
 
     /// The report on a search that has to see a hare and a hedgehog, and that judges two clauses.
     fn report(broken: Option<u64>, seconds_max: f64, second_engine: bool, hare: bool) -> RunReport {
+        report_of(Path { asked: 0, second_sees: 10, broken }, seconds_max, second_engine, hare)
+    }
+
+    fn report_of(path: Path, seconds_max: f64, second_engine: bool, hare: bool) -> RunReport {
+        let broken = path.broken;
         let limits = crate::progress::Limits { seconds_max, ..crate::progress::Limits::default() };
         let progress = Arc::new(Progress::new(limits));
-        let (_, found) = search(Path { asked: 0, second_sees: 10, broken }, second_engine, &progress);
+        let (_, found) = search(path, second_engine, &progress);
         let breach = found.fault().cloned();
         assert_eq!(breach.is_some(), broken.is_some());
         let seen = vec![("a hare".into(), hare), ("a hedgehog".into(), true)];
@@ -268,5 +273,17 @@ mod tests {
         assert_eq!(counted(&report(None, f64::INFINITY, false, true)), None);
         assert_eq!(counted(&report(Some(5), f64::INFINITY, true, true)), None);
         assert_eq!(counted(&report(None, 0.0, true, true)), None);
+    }
+
+    /// If the engines disagree, nobody knows whether all was judged: no clause is shown. `[spec: CHECK-9]`
+    #[test]
+    fn oracle_engines_that_disagree_show_no_clause() {
+        use Verdict::{Bounded, Exhaustive, Violated};
+        let path = Path { asked: 0, second_sees: 9, broken: None };
+        let report = report_of(path, f64::INFINITY, true, false);
+        assert_eq!(
+            (report.verdict, verdicts(&report)),
+            (Violated, vec![Bounded, Bounded, Bounded, Exhaustive])
+        );
     }
 }
