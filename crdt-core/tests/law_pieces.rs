@@ -17,7 +17,11 @@ fn check(whole: &State, bytes: usize) {
         assert_eq!(decode(&encode(piece)).as_ref(), Ok(piece));
         assert!(!piece.context().is_empty() && piece.is_below(whole));
         let single = piece.len() <= 1 && piece.context().runs().count() == 1 && encode(piece).len() <= 300;
-        assert!(encode(piece).len() <= bytes || single, "{} bytes of {bytes}: {piece:?}", encode(piece).len());
+        assert!(
+            encode(piece).len() <= bytes || single,
+            "{} bytes of {bytes}: {piece:?}",
+            encode(piece).len()
+        );
     }
     let join = |state: State, piece: &State| state.joined(piece);
     assert_eq!(&pieces.iter().fold(State::new(), join), whole);
@@ -74,7 +78,8 @@ fn regress_one_large_record_is_a_piece_alone() {
     let r1 = |sequence| Dot::new(ReplicaId::agent(1), sequence);
     let write = |sequence: u64, bytes: usize| {
         let value = Value::ByteVec(vec![7; bytes].into());
-        let write = Write { target: VertexId::ROOT.0, name: "map".into(), value, timestamp_ns: 0, stamp: sequence };
+        let write =
+            Write { target: VertexId::ROOT.0, name: "map".into(), value, timestamp_ns: 0, stamp: sequence };
         (r1(sequence), Record::Write(write))
     };
     let context = [Run { replica: ReplicaId::agent(1), first: 1, last: limits::SEQUENCE_MAX }];
