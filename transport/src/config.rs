@@ -89,6 +89,8 @@ pub struct Bounds {
     pub runs: usize,
     /// Requests for the same before it is given up. `[spec: LINK-7]`
     pub wants: u32,
+    /// Requests, beats and acknowledgements that wait to be sent.
+    pub control: usize,
     /// Peers. `[spec: LINK-16]`
     pub peers: usize,
     /// Streams of one peer to this one that are not done.
@@ -169,6 +171,7 @@ impl Default for Bounds {
             begun_messages: 256,
             runs: 4096,
             wants: 12,
+            control: 4096,
             peers: 256,
             incoming: 8,
             answers: 16,

@@ -1,4 +1,4 @@
-//! What a message holds: one byte that says what, then its bytes. `[spec: LINK-5]`
+//! What a message holds: its bytes, then one that says what they are. `[spec: LINK-5]`
 
 use dsr_core::{DecodeError, Delta, Digest, decode, decode_digest, encode, encode_digest};
 
@@ -28,20 +28,22 @@ pub(crate) enum MessageError {
 
 impl Message {
     pub(crate) fn encode(&self) -> Vec<u8> {
-        let (kind, bytes) = match self {
+        let (kind, mut bytes) = match self {
             Self::Delta(delta) => (DELTA, encode(delta)),
             Self::Digest(digest) => (DIGEST, encode_digest(digest)),
             Self::End(stream) => (END, stream.to_le_bytes().to_vec()),
         };
-        [&[kind], &bytes[..]].concat()
+        // At the end, so that nothing is moved.
+        bytes.push(kind);
+        bytes
     }
 
     pub(crate) fn decode(bytes: &[u8]) -> Result<Self, MessageError> {
         match bytes {
-            [DELTA, rest @ ..] => Ok(Self::Delta(decode(rest)?)),
-            [DIGEST, rest @ ..] => Ok(Self::Digest(decode_digest(rest)?)),
-            &[END, a, b, c, d] => Ok(Self::End(u32::from_le_bytes([a, b, c, d]))),
-            _ => Err(MessageError::Kind(bytes.first().copied())),
+            [rest @ .., DELTA] => Ok(Self::Delta(decode(rest)?)),
+            [rest @ .., DIGEST] => Ok(Self::Digest(decode_digest(rest)?)),
+            &[a, b, c, d, END] => Ok(Self::End(u32::from_le_bytes([a, b, c, d]))),
+            _ => Err(MessageError::Kind(bytes.last().copied())),
         }
     }
 }

@@ -2,8 +2,9 @@
 //! `[spec: LINK-5]` `[spec: LINK-8]`
 
 mod kept;
+mod next;
 
-use crate::wire::{Missing, Part, part_bounds, part_count};
+use crate::wire::{Missing, part_count};
 use kept::Kept;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
@@ -21,7 +22,9 @@ pub(crate) struct Outbox {
     /// Numbers of messages that are waiting: of one part, and of several.
     small: VecDeque<u64>,
     large: VecDeque<u64>,
-    again: BTreeSet<(u64, u32)>,
+    /// Parts to be sent again: of messages of one part, and of several.
+    again_small: BTreeSet<u64>,
+    again_large: BTreeSet<(u64, u32)>,
     /// Bytes of parts that have been sent, each counted once.
     sent_bytes: u64,
 }
@@ -47,7 +50,8 @@ impl Outbox {
             queued_bytes: 0,
             small: VecDeque::new(),
             large: VecDeque::new(),
-            again: BTreeSet::new(),
+            again_small: BTreeSet::new(),
+            again_large: BTreeSet::new(),
             sent_bytes: 0,
         }
     }
@@ -76,7 +80,7 @@ impl Outbox {
     }
 
     pub(crate) fn has_again(&self) -> bool {
-        !self.again.is_empty()
+        !self.again_small.is_empty() || !self.again_large.is_empty()
     }
 
     /// Numbers a message and queues its parts.
@@ -139,9 +143,13 @@ impl Outbox {
                 let all = [(0, u32::MAX)];
                 let runs: &[(u32, u32)] = if parts.is_empty() { &all } else { parts };
                 for index in runs.iter().flat_map(|&(first, last)| first..last.saturating_add(1).min(sent)) {
-                    if kept.passes_guard(index, now, guard) && self.again.insert((number, index)) {
-                        answered.parts += 1;
-                    }
+                    let is_new = kept.passes_guard(index, now, guard)
+                        && if kept.count == 1 {
+                            self.again_small.insert(number)
+                        } else {
+                            self.again_large.insert((number, index))
+                        };
+                    answered.parts += u64::from(is_new);
                 }
             }
         }
@@ -153,95 +161,16 @@ impl Outbox {
     pub(crate) fn probe(&mut self) -> bool {
         let mut sent = self.kept.iter().filter(|(_, kept)| kept.sent > 0);
         let ends = [sent.next(), sent.next_back()].into_iter().flatten();
-        let ends: Vec<(u64, u32)> = ends.map(|(&number, kept)| (number, kept.sent - 1)).collect();
-        self.again.extend(&ends);
+        let ends: Vec<(u64, u32, u32)> =
+            ends.map(|(&number, kept)| (number, kept.sent - 1, kept.count)).collect();
+        for &(number, index, count) in &ends {
+            if count == 1 {
+                self.again_small.insert(number);
+            } else {
+                self.again_large.insert((number, index));
+            }
+        }
         !ends.is_empty()
-    }
-
-    /// The length of the next message of one part, if there is one.
-    pub(crate) fn small_bytes(&mut self) -> Option<usize> {
-        self.drop_stale();
-        let again = self.again.iter().map(|at| at.0).find(|number| self.is_small(*number));
-        let number = again.or_else(|| self.small.front().copied())?;
-        Some(self.kept.get(&number)?.bytes.len())
-    }
-
-    /// The next message of one part: first what is asked for again.
-    pub(crate) fn take_small(&mut self) -> Option<Part> {
-        let again = self.again.iter().copied().find(|(number, _)| self.is_small(*number));
-        if let Some(at) = again {
-            self.again.remove(&at);
-            return self.part(at.0, at.1);
-        }
-        let number = self.small.pop_front()?;
-        self.first_part(number)
-    }
-
-    /// The next part of a message of several: first what is asked for again.
-    pub(crate) fn take_large(&mut self, fresh: bool) -> Option<Part> {
-        self.drop_stale();
-        let again = self.again.iter().copied().find(|(number, _)| !self.is_small(*number));
-        if let Some(at) = again {
-            self.again.remove(&at);
-            return self.part(at.0, at.1);
-        }
-        if !fresh {
-            return None;
-        }
-        let number = *self.large.front()?;
-        let part = self.first_part(number);
-        if self.kept.get(&number).is_none_or(|kept| kept.sent == kept.count) {
-            self.large.pop_front();
-        }
-        part
-    }
-
-    /// The next part of any size, in the order of numbers. For streams to one peer.
-    pub(crate) fn take_next(&mut self, fresh: bool) -> Option<Part> {
-        self.drop_stale();
-        if let Some(at) = self.again.pop_first() {
-            return self.part(at.0, at.1);
-        }
-        if !fresh {
-            return None;
-        }
-        match (self.small.front(), self.large.front()) {
-            (Some(small), Some(large)) if large < small => self.take_large(true),
-            (Some(_), _) => self.take_small(),
-            (None, _) => self.take_large(true),
-        }
-    }
-
-    fn is_small(&self, number: u64) -> bool {
-        self.kept.get(&number).is_some_and(|kept| kept.count == 1)
-    }
-
-    /// What is no longer kept need not be sent again.
-    fn drop_stale(&mut self) {
-        let oldest = self.oldest();
-        while self.again.first().is_some_and(|at| at.0 < oldest) {
-            self.again.pop_first();
-        }
-    }
-
-    fn first_part(&mut self, number: u64) -> Option<Part> {
-        let kept = self.kept.get_mut(&number)?;
-        let index = kept.sent;
-        kept.sent += 1;
-        if kept.sent == kept.count {
-            self.queued_bytes -= kept.bytes.len();
-        }
-        let part = self.part(number, index)?;
-        self.sent_bytes += part.bytes.len() as u64;
-        Some(part)
-    }
-
-    fn part(&self, number: u64, index: u32) -> Option<Part> {
-        let kept = self.kept.get(&number)?;
-        let total = u32::try_from(kept.bytes.len()).ok()?;
-        let (first, end) = part_bounds(total, kept.count, index)?;
-        let bytes = kept.bytes.get(first..end)?.to_vec();
-        Some(Part { stream: self.stream, to: self.to, number, index, count: kept.count, total, bytes })
     }
 }
 

@@ -36,7 +36,8 @@ impl Begun {
             return Taken::Kept;
         }
         *room += self.bytes;
-        Taken::Complete(std::mem::take(&mut self.parts).into_values().flatten().collect())
+        let parts: Vec<Vec<u8>> = std::mem::take(&mut self.parts).into_values().collect();
+        Taken::Complete(parts.concat())
     }
 
     /// Runs of parts that have not come: below the last that has, and all once nothing comes any more.

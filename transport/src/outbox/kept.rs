@@ -6,7 +6,7 @@ use std::sync::Arc;
 /// A message that is kept.
 #[derive(Clone, Debug)]
 pub(super) struct Kept {
-    pub(super) bytes: Arc<[u8]>,
+    pub(super) bytes: Arc<Vec<u8>>,
     pub(super) count: u32,
     /// So many parts have been sent.
     pub(super) sent: u32,
@@ -18,7 +18,7 @@ pub(super) struct Kept {
 impl Kept {
     /// Of this message nothing has been sent.
     pub(super) fn new(bytes: Vec<u8>, count: u32) -> Self {
-        Self { bytes: bytes.into(), count, sent: 0, guarded: BTreeSet::new(), guard_until: 0 }
+        Self { bytes: Arc::new(bytes), count, sent: 0, guarded: BTreeSet::new(), guard_until: 0 }
     }
 
     /// Whether a part may be sent again: it was not just now.

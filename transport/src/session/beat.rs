@@ -70,7 +70,7 @@ impl Session {
         let fingerprint = self.fingerprint();
         let (high, oldest) = (self.outbox.high(), self.outbox.oldest());
         let beat = Item::Beat { high, oldest, fingerprint, name: self.config.name.clone() };
-        self.control.push_back((Destination::Group, beat));
+        self.say(Destination::Group, beat);
     }
 
     pub(super) fn hear_beat(&mut self, sender: Origin, high: u64, oldest: u64, theirs: Option<u128>) {

@@ -87,7 +87,7 @@ impl Session {
             self.beats.at = self.now;
         } else if *hello_at <= self.now {
             *hello_at = self.now.saturating_add((self.config.times.claim / HELLOS).max(1));
-            self.control.push_back((Destination::Group, Item::Hello { name: self.config.name.clone() }));
+            self.say(Destination::Group, Item::Hello { name: self.config.name.clone() });
         }
     }
 
@@ -113,7 +113,7 @@ impl Session {
         let object = Item::Object { to, name: self.config.name.clone() };
         if self.control.back().is_none_or(|last| last.1 != object) {
             self.stats.objections += 1;
-            self.control.push_back((Destination::Peer(from), object));
+            self.say(Destination::Peer(from), object);
         }
     }
 
@@ -133,7 +133,7 @@ impl Session {
         match self.phase {
             Phase::Claiming { .. } => {
                 self.control.clear();
-                self.control.push_back((Destination::Group, Item::Bye));
+                self.say(Destination::Group, Item::Bye);
                 self.phase = Phase::Refused(refusal.clone());
             }
             Phase::Member if sender < self.me => self.phase = Phase::Reader(refusal.clone()),
@@ -158,7 +158,7 @@ impl Session {
     }
 
     fn say_bye(&mut self) {
-        self.control.push_back((Destination::Group, Item::Bye));
+        self.say(Destination::Group, Item::Bye);
         self.phase = Phase::Left;
     }
 }

@@ -123,7 +123,8 @@ impl Session {
         let (done, answers) = (incoming.is_done(), incoming.answers);
         let below = if done { u64::MAX } else { incoming.inbox.below() };
         let ack = Item::Ack { stream, below, received: incoming.inbox.received() };
-        self.control.push_back((Destination::Peer(peer.address), ack));
+        let to = Destination::Peer(peer.address);
+        self.say(to, ack);
         if done {
             self.close(from, stream);
             self.has_answered(from, answers);

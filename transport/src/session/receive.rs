@@ -132,7 +132,7 @@ impl Session {
         let (stream, number, several) = (part.stream, part.number, part.count > 1);
         let address = Destination::Peer(peer.address);
         if peer.done.contains(stream.into()) {
-            self.control.push_back((address, Item::Ack { stream, below: u64::MAX, received: u64::MAX }));
+            self.say(address, Item::Ack { stream, below: u64::MAX, received: u64::MAX });
             return;
         }
         if !peer.incoming.contains_key(&stream) && peer.incoming.len() >= self.config.bounds.incoming {

@@ -6,6 +6,15 @@ use crate::origin::Destination;
 use crate::wire::{GROUP_STREAM, HEADER_BYTES, Item, PART_BYTES, begin, finish};
 
 impl Session {
+    /// Queues what controls. What there is no room for is said again when it is asked for again, or due again.
+    pub(super) fn say(&mut self, to: Destination, item: Item) {
+        if self.control.len() < self.config.bounds.control {
+            self.control.push_back((to, item));
+        } else {
+            self.stats.overflows += 1;
+        }
+    }
+
     /// The next datagram: what controls, then small messages, then parts of large ones and of answers in turn.
     pub(super) fn next_datagram(&mut self) -> Option<Action> {
         self.run_leave();

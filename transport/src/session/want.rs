@@ -58,7 +58,7 @@ impl Session {
                 inbox.back_off(self.now, wait, &self.config.times);
                 self.stats.wants += 1;
                 let item = Item::Want { origin, stream: GROUP_STREAM, missing };
-                self.control.push_back((Destination::Group, item));
+                self.say(Destination::Group, item);
             }
         }
     }
@@ -79,7 +79,8 @@ impl Session {
                 incoming.inbox.back_off(self.now, wait, &self.config.times);
                 self.stats.wants += 1;
                 let item = Item::Want { origin, stream, missing };
-                self.control.push_back((Destination::Peer(peer.address), item));
+                let to = Destination::Peer(peer.address);
+                self.say(to, item);
             }
         }
     }
@@ -106,7 +107,7 @@ impl Session {
             self.gone_said_at = Some(self.now);
             self.stats.gone_said += 1;
             let gone = Item::Gone { stream: GROUP_STREAM, below: self.outbox.oldest() };
-            self.control.push_back((Destination::Group, gone));
+            self.say(Destination::Group, gone);
         }
     }
 
@@ -118,7 +119,7 @@ impl Session {
             self.stats.resent += outgoing.outbox.want(missing, self.now, self.config.times.guard).parts;
         } else {
             let gone = Item::Gone { stream, below: u64::MAX };
-            self.control.push_back((Destination::Peer(peer.address), gone));
+            self.say(Destination::Peer(peer.address), gone);
         }
     }
 

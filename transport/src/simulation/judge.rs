@@ -8,7 +8,7 @@ use dsr_core::invariant::{self, Violation};
 use std::collections::BTreeMap;
 
 /// After the network has healed, all are equal within so long a time.
-pub const HEAL_MAX: u64 = 12 * SECOND;
+pub const HEAL_MAX: u64 = 8 * SECOND;
 
 /// What was broken.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
