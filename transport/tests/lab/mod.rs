@@ -19,6 +19,18 @@ pub struct Lab {
     /// Every datagram that was sent.
     pub sent: Vec<(u64, usize, Destination, Datagram, usize)>,
     pub filter: Filter,
+    /// What happens to the next datagrams, one after the other; then all is well.
+    pub fates: std::collections::VecDeque<Fate>,
+}
+
+/// What happens to a datagram.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Fate {
+    Arrives,
+    IsLost,
+    ComesTwice,
+    /// After so many milliseconds.
+    IsLate(u64),
 }
 
 pub fn config(agent: u32) -> Config {
@@ -52,6 +64,7 @@ impl Lab {
             told: Vec::new(),
             sent: Vec::new(),
             filter: Box::new(|_, _, _| true),
+            fates: [].into(),
         }
     }
 
@@ -89,8 +102,17 @@ impl Lab {
                 let read = Datagram::decode(&bytes, group_key("lab")).unwrap();
                 let passes = (self.filter)(port, to, &read);
                 self.sent.push((now, port, to, read, bytes.len()));
-                if passes {
-                    self.network.send(port, to, bytes, now);
+                if !passes {
+                    continue;
+                }
+                match self.fates.pop_front().unwrap_or(Fate::Arrives) {
+                    Fate::Arrives => self.network.send(port, to, bytes, now),
+                    Fate::IsLost => {}
+                    Fate::ComesTwice => {
+                        self.network.send(port, to, bytes.clone(), now);
+                        self.network.send(port, to, bytes, now + 2 * MS);
+                    }
+                    Fate::IsLate(ms) => self.network.send(port, to, bytes, now + ms * MS),
                 }
             } else {
                 self.told.push((now, port, action));
