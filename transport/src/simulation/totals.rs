@@ -16,6 +16,8 @@ pub struct Totals {
     pub sessions: u64,
     /// Mutations made.
     pub mutations: u64,
+    /// Records of the graphs at the ends.
+    pub records: u64,
     /// The counters of all sessions.
     pub stats: Stats,
     /// Deliveries, and deliveries lost, cut, damaged, repeated, reordered, overflowed.
@@ -30,6 +32,7 @@ impl Totals {
         self.failed += u64::from(outcome.failure.is_some());
         self.sessions += outcome.sessions as u64;
         self.mutations += outcome.mutations;
+        self.records += outcome.records as u64;
         self.stats.add(&outcome.stats);
         let traffic = outcome.traffic;
         let counts = [
@@ -58,8 +61,11 @@ impl Totals {
 
 impl fmt::Display for Totals {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { runs, failed, sessions, mutations, stats, deliveries, .. } = self;
-        writeln!(f, "{runs} runs, {failed} failed; {sessions} sessions, {mutations} mutations")?;
+        let Self { runs, failed, sessions, mutations, records, stats, deliveries, .. } = self;
+        writeln!(
+            f,
+            "{runs} runs, {failed} failed; {sessions} sessions, {mutations} mutations, {records} records"
+        )?;
         writeln!(
             f,
             "equal after healing, virtual: median {} ms, 99 % {} ms, all {} ms",
