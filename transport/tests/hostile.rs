@@ -4,6 +4,7 @@
 
 mod lab;
 
+use dsr_transport::memory::Network;
 use dsr_transport::wire::{Datagram, Item};
 use dsr_transport::{Address, Bounds, Event, MS};
 use lab::{Lab, image, room};
@@ -63,4 +64,26 @@ fn law_hostile_datagrams_do_no_harm() {
     lab.mutate(1, &room("hall"));
     lab.pass(1000);
     assert!(lab.are_equal() && lab.session(0).begun_bytes() == 0);
+}
+
+/// A stranger makes up numbers in a member's name; the member's next beat ends the belief, and what is lost is asked
+/// for again. `[spec: LINK-11]` `[spec: LINK-7]`
+#[test]
+fn regress_made_up_numbers_are_not_believed_for_long() {
+    let mut lab = Lab::of(2);
+    let sender = lab.session(0).origin();
+    let beat = Item::Beat { high: 1 << 40, oldest: 1 << 40, fingerprint: None, name: "a1".into() };
+    let bytes = Datagram { sender, items: vec![beat] }.encode(dsr_transport::wire::group_key("lab"));
+    let now = lab.now;
+    lab.session(1).handle(Event::Datagram { from: Network::address(0), bytes: &bytes }, now);
+    lab.drain(1);
+    lab.pass(3000);
+    let asked = lab.session(1).stats().wants;
+    lab.filter = Box::new(|_, _, datagram| !matches!(datagram.items[..], [Item::Part(_)]));
+    lab.mutate(0, &room("lost"));
+    lab.filter = Box::new(|_, _, _| true);
+    lab.pass(50);
+    let stats = lab.session(1).stats();
+    assert!(lab.are_equal() && stats.wants > asked, "{stats:?}");
+    assert_eq!(lab.session(0).stats().resent, 1);
 }

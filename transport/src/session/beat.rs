@@ -4,6 +4,9 @@ use super::Session;
 use crate::origin::{Destination, Origin};
 use crate::wire::Item;
 
+/// No beat is so late that its origin has sent more messages since: then what is believed of the stream is a lie.
+const LATE: u64 = 1 << 16;
+
 /// When the next beat is due.
 #[derive(Clone, Debug)]
 pub(super) struct Beats {
@@ -77,6 +80,9 @@ impl Session {
         let wait = self.patience();
         let ours = if theirs.is_some() { self.fingerprint() } else { None };
         let Some(peer) = self.peers.get_mut(&sender) else { return };
+        if let Some(inbox) = peer.inbox.take_if(|inbox| inbox.high() > high.saturating_add(LATE)) {
+            self.room += inbox.begun_bytes();
+        }
         let inbox = peer.inbox_from(high + 1);
         inbox.exists(high);
         inbox.watch(self.now, wait);
