@@ -47,6 +47,7 @@ pub mod invariant;
 pub mod json;
 pub mod limits;
 mod mutation;
+mod pieces;
 mod record;
 mod replica;
 #[cfg(feature = "serde")]

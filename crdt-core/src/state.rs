@@ -68,6 +68,11 @@ impl State {
         self.store.extend(held.map(|(&dot, record)| (dot, Arc::clone(record))));
     }
 
+    /// The records held under dots of `run`, in order.
+    pub(crate) fn records_within(&self, run: Run) -> impl Iterator<Item = (Dot, &Record)> + '_ {
+        self.store.range(run.bounds()).map(|(&dot, record)| (dot, &**record))
+    }
+
     /// The dead dots of `run`, as ascending runs. O(log n + the records and runs in it).
     pub(crate) fn dead_within(&self, run: Run) -> impl Iterator<Item = Run> + '_ {
         self.context.runs_within(run).flat_map(|seen| {

@@ -14,7 +14,7 @@ macro_rules! chapters {
 chapters! {
     "README", "checker", "claims", "closure", "conflicts", "conformance", "context", "dictionary", "encoding",
     "identity", "intent", "invariants", "join", "limits", "mutations", "network", "oracle", "replica", "scenario", "scene",
-    "stamps", "state", "sync", "trace", "values", "view", "wellformed",
+    "stamps", "state", "sync", "trace", "transport", "values", "view", "wellformed",
 }
 
 /// The chapters as sources.
