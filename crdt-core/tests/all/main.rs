@@ -26,6 +26,7 @@ mod law_join;
 #[cfg(feature = "serde")]
 mod law_json;
 mod law_mutation;
+mod law_pieces;
 mod law_sync;
 mod law_view;
 mod replica_support;

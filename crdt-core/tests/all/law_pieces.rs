@@ -1,5 +1,4 @@
 //! Pieces of a state: their join is the state, in any order; each is well-formed and small.
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use dsr_core::{
     Dot, Record, ReplicaId, Run, State, Value, VertexId, Write, check_well_formed, decode, delta_for, digest,
