@@ -2,7 +2,7 @@
 
 use crate::adapter::{Adapter, answer};
 use crate::protocol::{Answer, Decline, ErrorCode, LINE_BYTES_MAX, Reply, Request, read_strictly};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::io::{self, BufRead, Read, Write};
 
 /// Why an adapter stops before the end of its input.
@@ -62,7 +62,7 @@ pub fn serve(
 
 /// The reply to one line; an error if the line has no id to reply to.
 fn reply_to(adapter: &mut dyn Adapter, line: &[u8]) -> Result<Reply<Answer>, serde_json::Error> {
-    #[derive(Deserialize)]
+    #[derive(Serialize, Deserialize)]
     struct Numbered {
         id: u64,
     }
@@ -71,7 +71,7 @@ fn reply_to(adapter: &mut dyn Adapter, line: &[u8]) -> Result<Reply<Answer>, ser
     match read_strictly::<Request>(text) {
         Ok(request) => Ok(Reply::new(request.id, answer(adapter, &request.r#do))),
         Err(why) => {
-            let Numbered { id } = serde_json::from_str(text)?;
+            let Numbered { id } = read_strictly(text)?;
             Ok(Reply::new(id, Err(Decline::error(ErrorCode::RejectedInput, why.to_string()))))
         }
     }
@@ -80,4 +80,24 @@ fn reply_to(adapter: &mut dyn Adapter, line: &[u8]) -> Result<Reply<Answer>, ser
 /// The line that `serve` would write, for an adapter in the same process.
 pub(crate) fn reply_line(adapter: &mut dyn Adapter, line: &str) -> Result<String, serde_json::Error> {
     serde_json::to_string(&reply_to(adapter, line.as_bytes())?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::core_adapter::Core;
+
+    /// `[spec: CONF-2]`
+    #[test]
+    fn regress_a_list_is_no_request_and_has_no_id() {
+        for line in ["[7]", "[18446744073709551615]", "[7, {\"hello\": {}}]", "7", "null"] {
+            let mut output = Vec::new();
+            let ended = serve(&mut Core::default(), line.as_bytes(), &mut output);
+            assert!(matches!(ended, Err(ServeError::NoRequest { number: 1, .. })), "{line}");
+            assert!(output.is_empty(), "{line}");
+        }
+        let mut output = Vec::new();
+        assert!(serve(&mut Core::default(), &b"{\"id\": 7, \"do\": [5]}"[..], &mut output).is_ok());
+        assert!(output.starts_with(b"{\"id\":7,\"error\":"));
+    }
 }
